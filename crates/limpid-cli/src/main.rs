@@ -1,0 +1,2 @@
+//! The program `limpid`.
+fn main() {}

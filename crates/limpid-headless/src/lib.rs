@@ -1,0 +1,1 @@
+//! limpid without a window: adapters, off-screen frames, buffers read back.

@@ -1,0 +1,1 @@
+//! Screen-space rendering of particle fluids on wgpu.
