@@ -1,0 +1,34 @@
+//! The one error type of the library.
+
+/// What can be wrong with a frame. Every message names the setting and the remedy.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A setting outside its range.
+    #[error("{name} is {value}, but must be {range}")]
+    Setting {
+        /// The setting's name.
+        name: &'static str,
+        /// What it was set to.
+        value: f64,
+        /// What is accepted.
+        range: &'static str,
+    },
+    /// A picture without pixels, or with more than the device can hold.
+    #[error("a picture of {width} x {height} pixels needs buffers of {needed} bytes, but this device allows 1 to {limit}: choose another size")]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Bytes of the largest buffer that the picture needs.
+        needed: u64,
+        /// Bytes that the device allows.
+        limit: u64,
+    },
+    /// A camera that sees nothing, or that is not finite.
+    #[error("the camera is unusable: {0}")]
+    View(&'static str),
+    /// Particle arrays that do not fit together or hold numbers that are not finite.
+    #[error("the particles are unusable: {0}")]
+    Particles(String),
+}

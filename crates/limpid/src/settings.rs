@@ -1,0 +1,145 @@
+//! Every knob of the fluid's look. Lengths are in particle radii (r) unless a name says otherwise, so that a scene in
+//! millimetres looks like the same scene in metres.
+
+/// How the fluid is drawn. `Settings::default()` looks good untouched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Drawn radius over particle radius, 0.5 to 4, default 1.5: at 1 a settled lattice seen from above has holes.
+    /// Thickness is normalised, so this never makes a body of liquid look deeper.
+    pub splat_scale: f32,
+    /// Particles of lower density (in the file's unit) are stray and left out; 0, the default, keeps all
+    /// (van der Laan 2009, section 3.1).
+    pub density_threshold: f32,
+    /// Resolution of the thickness image, default half.
+    pub thickness_scale: Scale,
+    /// Where the fluid is thinner than this many r the background shows; 0, the default, shows all fluid.
+    pub min_thickness: f32,
+    /// How the surface is smoothed.
+    pub smoothing: Smoothing,
+    /// Neighbouring pixels farther apart than this many r belong to different sheets when normals are taken;
+    /// default 3.
+    pub normal_step: f32,
+    /// What light does in and on the liquid.
+    pub optics: Optics,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            splat_scale: 1.5,
+            density_threshold: 0.0,
+            thickness_scale: Scale::Half,
+            min_thickness: 0.0,
+            smoothing: Smoothing::default(),
+            normal_step: 3.0,
+            optics: Optics::default(),
+        }
+    }
+}
+
+/// Resolution of an image relative to the picture's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scale {
+    /// Every pixel.
+    Full,
+    /// One texel for 2 x 2 pixels.
+    Half,
+    /// One texel for 4 x 4 pixels.
+    Quarter,
+}
+
+impl Scale {
+    /// Pixels along one side of a texel: 1, 2 or 4.
+    pub const fn divisor(self) -> u32 {
+        match self {
+            Self::Full => 1,
+            Self::Half => 2,
+            Self::Quarter => 4,
+        }
+    }
+
+    /// Size in texels of an image that covers `size` pixels.
+    pub const fn of(self, size: [u32; 2]) -> [u32; 2] {
+        [size[0].div_ceil(self.divisor()), size[1].div_ceil(self.divisor())]
+    }
+}
+
+/// A way of smoothing the depth image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Filter {
+    /// The splats as they are.
+    None,
+    /// Truong and Yuksel 2018, "A Narrow-Range Filter for Screen-Space Fluid Rendering".
+    #[default]
+    NarrowRange,
+}
+
+/// Settings of the smoothing pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Smoothing {
+    /// Which filter.
+    pub filter: Filter,
+    /// Smoothing length in r, 0 to 20: the standard deviation of the filter's Gaussian over the surface, the same
+    /// meaning for every filter.
+    pub strength: f32,
+    /// How often the filter is applied, 1 to 100, default 1.
+    pub iterations: u32,
+    /// Largest half-width of the filter in pixels, 1 to 256, default 100: bounds the cost of a close-up.
+    pub max_radius_px: u32,
+    /// Narrow-range only: depths within this many r of the surface already accepted belong to it; default 10.
+    pub range: f32,
+    /// Narrow-range only: samples behind the range count as this many r behind the centre; default 1.
+    pub clamp: f32,
+}
+
+impl Default for Smoothing {
+    fn default() -> Self {
+        Self::of(Filter::default())
+    }
+}
+
+impl Smoothing {
+    /// The defaults of one filter.
+    pub const fn of(filter: Filter) -> Self {
+        Self { filter, strength: 1.5, iterations: 1, max_radius_px: 100, range: 10.0, clamp: 1.0 }
+    }
+}
+
+/// The liquid's optics (van der Laan 2009, Eq. 13-15, with the exact dielectric Fresnel term).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Optics {
+    /// Index of refraction, 1 to 3, default 1.333 (water).
+    pub refractive_index: f32,
+    /// Beer-Lambert absorption of red, green and blue.
+    pub absorption: Absorption,
+    /// Linear colour of a body of liquid so deep that nothing shines through: C_fluid of Eq. 14.
+    pub color: [f32; 3],
+    /// gamma of Eq. 15: how far the background is shifted, in units of the thickness along the normal; 0 to 4.
+    pub refraction: f32,
+    /// k_s of Eq. 13: strength of the sun's highlight, 0 to 4.
+    pub specular: f32,
+    /// alpha of Eq. 13: the highlight's exponent, 1 to 4096; higher is smaller and sharper.
+    pub shininess: f32,
+}
+
+impl Default for Optics {
+    fn default() -> Self {
+        Self {
+            refractive_index: 1.333,
+            absorption: Absorption::PerRadius([0.050, 0.018, 0.009]),
+            color: [0.004, 0.030, 0.045],
+            refraction: 0.5,
+            specular: 1.0,
+            shininess: 300.0,
+        }
+    }
+}
+
+/// Beer-Lambert absorption coefficients of red, green and blue, each 0 or more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Absorption {
+    /// Per particle radius of depth: the same look whatever the scene's unit.
+    PerRadius([f32; 3]),
+    /// Per world unit of depth: a physical liquid.
+    PerWorld([f32; 3]),
+}

@@ -1,0 +1,107 @@
+//! The camera: a right-handed world, a view space that looks down -z, depths that are positive view distances.
+
+use crate::Error;
+use bytemuck::{Pod, Zeroable};
+use glam::dcamera::rh::{proj::directx, view};
+use glam::{DMat4, DVec3, Mat4};
+
+/// Where the picture is taken from and how it is projected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Rigid transform from world to view space. In f64, so that a scene far from the origin keeps its digits.
+    pub view_from_world: DMat4,
+    /// Projection to wgpu's clip space (depth 0 to 1, standard or reversed, finite or infinite), perspective or
+    /// orthographic. Decides what depth the host's depth target gets.
+    pub clip_from_view: DMat4,
+    /// Nearest view depth that is drawn, world units, above 0: a ball of fluid that reaches past it is cut open there.
+    pub near: f64,
+    /// Orthographic views only: a view depth beyond everything, world units. Perspective views have no far limit.
+    pub far: f64,
+}
+
+impl View {
+    /// A perspective camera: `fov_y` is the full vertical field of view in radians, `aspect` is width over height.
+    pub fn perspective(eye: DVec3, target: DVec3, up: DVec3, fov_y: f64, aspect: f64, near: f64) -> Self {
+        Self {
+            view_from_world: view::look_at_mat4(eye, target, up),
+            clip_from_view: directx::perspective_infinite_reverse(fov_y, aspect, near),
+            near,
+            far: f64::INFINITY,
+        }
+    }
+
+    /// An orthographic camera that shows `height` world units from bottom to top.
+    pub fn orthographic(eye: DVec3, target: DVec3, up: DVec3, height: f64, aspect: f64, near: f64, far: f64) -> Self {
+        let half = 0.5 * height;
+        Self {
+            view_from_world: view::look_at_mat4(eye, target, up),
+            // Reversed depth: near and far change places.
+            clip_from_view: directx::orthographic(-half * aspect, half * aspect, -half, half, far, near),
+            near,
+            far,
+        }
+    }
+
+    /// Whether rays leave one point (perspective) or run side by side (orthographic).
+    pub fn is_perspective(&self) -> bool {
+        self.clip_from_view.w_axis.w == 0.0
+    }
+
+    /// The camera's position (perspective) or the origin of its view space (orthographic), in world space.
+    pub fn eye(&self) -> DVec3 {
+        self.view_from_world.inverse().transform_point3(DVec3::ZERO)
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let finite = self.view_from_world.is_finite() && self.clip_from_view.is_finite() && self.near.is_finite();
+        if !finite {
+            return Err(Error::View("its matrices hold numbers that are not finite (are eye and target the same point, or is up parallel to the view?)"));
+        }
+        if self.near <= 0.0 {
+            return Err(Error::View("near must be above 0"));
+        }
+        if !self.is_perspective() && !(self.far.is_finite() && self.far > self.near) {
+            return Err(Error::View("an orthographic view needs a finite far beyond near"));
+        }
+        if self.clip_from_view.x_axis.x == 0.0 || self.clip_from_view.y_axis.y == 0.0 {
+            return Err(Error::View("its projection is flat (field of view or height of 0?)"));
+        }
+        Ok(())
+    }
+
+    /// What the shaders know of the view: `view.wgsl`'s `View`. `origin` is where the particles' local space starts.
+    pub(crate) fn uniform(&self, size: [u32; 2], origin: DVec3) -> ViewUniform {
+        let clip = self.clip_from_view;
+        let perspective = self.is_perspective();
+        // A point at depth z is seen through pixel (x, y) at ray_origin + ray_slope z; each is affine in the pixel.
+        let ndc_per_px = [2.0 / f64::from(size[0]), -2.0 / f64::from(size[1])];
+        let shift = if perspective { clip.z_axis } else { -clip.w_axis };
+        let px_step = [ndc_per_px[0] / clip.x_axis.x, ndc_per_px[1] / clip.y_axis.y];
+        let px_zero = [(-1.0 + shift.x) / clip.x_axis.x, (1.0 + shift.y) / clip.y_axis.y];
+        ViewUniform {
+            view_from_local: (self.view_from_world * DMat4::from_translation(origin)).as_mat4(),
+            world_from_view_rotation: self.view_from_world.inverse().as_mat4(),
+            px_zero: px_zero.map(|v| v as f32),
+            px_step: px_step.map(|v| v as f32),
+            depth_row: [clip.z_axis.z as f32, clip.w_axis.z as f32, clip.z_axis.w as f32, clip.w_axis.w as f32],
+            size,
+            near: self.near as f32,
+            far: if perspective { 0.0 } else { self.far as f32 },
+        }
+    }
+}
+
+/// `view.wgsl`'s `View`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct ViewUniform {
+    pub view_from_local: Mat4,
+    pub world_from_view_rotation: Mat4,
+    pub px_zero: [f32; 2],
+    pub px_step: [f32; 2],
+    pub depth_row: [f32; 4],
+    pub size: [u32; 2],
+    pub near: f32,
+    /// 0 in perspective.
+    pub far: f32,
+}
