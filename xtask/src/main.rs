@@ -1,2 +1,48 @@
-//! xtask
-fn main() {}
+//! Set-up, demo and checks of this repository. `cargo xtask` lists the verbs.
+
+mod checks;
+mod data;
+mod demo;
+mod driver;
+mod golden;
+mod shell;
+mod shots;
+mod toolchain;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+Usage: cargo xtask VERB
+
+  demo              render the particle data of this repository to pictures in out/demo
+  test              everything: format, lints, tests, docs, WebAssembly, size of the data
+  check             the quick part of it: format, lints, tests that need no GPU
+  golden            compare with the golden pictures
+  golden --accept   make what is rendered now the golden pictures
+
+demo, test and golden install a Vulkan driver (Mesa's CPU driver) where there is none and apt-get can.
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = shell::enter_root().and_then(|()| match arguments[..] {
+        ["demo"] => demo::render_all(),
+        ["test"] => checks::everything(),
+        ["check"] => checks::quick(),
+        ["golden"] => golden::compare(),
+        ["golden", "--accept"] => golden::accept(),
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => Err(format!("no such verb: {}\n\n{HELP}", arguments.join(" "))),
+    });
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("xtask: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! The golden pictures: small renderings of whole frames, kept to notice when the look changes.
+
+use crate::driver;
+use crate::shell::{Result, cargo, run};
+
+/// Compares what is rendered now with them.
+pub fn compare() -> Result {
+    test(false).map_err(|reason| {
+        format!("{reason}; if the change is meant, look at the new pictures and run `cargo xtask golden --accept`")
+    })
+}
+
+/// Replaces them by what is rendered now.
+pub fn accept() -> Result {
+    test(true)
+}
+
+fn test(accept: bool) -> Result {
+    driver::ensure()?;
+    let mut command = cargo();
+    command.args(["test", "--release", "--package", "limpid-headless", "--test", "golden"]);
+    if accept {
+        command.env("LIMPID_ACCEPT_GOLDEN", "1");
+    }
+    run(&mut command)
+}
