@@ -2,25 +2,24 @@
 
 use crate::driver;
 use crate::shell::{Result, cargo, run};
+use std::process::Command;
 
 /// Compares what is rendered now with them.
 pub fn compare() -> Result {
-    test(false).map_err(|reason| {
+    driver::ensure()?;
+    run(&mut test()).map_err(|reason| {
         format!("{reason}; if the change is meant, look at the new pictures and run `cargo xtask golden --accept`")
     })
 }
 
 /// Replaces them by what is rendered now.
 pub fn accept() -> Result {
-    test(true)
+    driver::ensure()?;
+    run(test().env("LIMPID_ACCEPT_GOLDEN", "1"))
 }
 
-fn test(accept: bool) -> Result {
-    driver::ensure()?;
+fn test() -> Command {
     let mut command = cargo();
     command.args(["test", "--release", "--package", "limpid-headless", "--test", "golden"]);
-    if accept {
-        command.env("LIMPID_ACCEPT_GOLDEN", "1");
-    }
-    run(&mut command)
+    command
 }
