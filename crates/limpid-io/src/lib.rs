@@ -1,1 +1,37 @@
 //! Readers for particle files and frame sequences.
+//!
+//! [`read`] gives the particles of one file, whatever its format; [`expand`] gives the files of a sequence. A file that
+//! is broken, cut off or of another kind gives an error of one line that names it and says what to do; memory is never
+//! reserved for more than a file can hold.
+
+mod bgeo;
+mod error;
+mod format;
+mod input;
+mod names;
+mod particles;
+mod ply;
+mod pos;
+mod radius;
+mod raw;
+mod sequence;
+mod spacing;
+mod values;
+mod vtk;
+
+use std::path::Path;
+
+pub use error::ReadError;
+pub use format::Format;
+pub use particles::{Attribute, Bounds, ParticleSet};
+pub use radius::{Radius, RadiusSource};
+pub use sequence::{Frame, Sequence, expand};
+pub use values::Values;
+
+/// Reads one file. Its contents decide what format it is, and its name where they do not.
+pub fn read(path: &Path) -> Result<ParticleSet, ReadError> {
+    let mut input = input::Input::open(path).map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
+    let format = Format::of_input(&input, path)?;
+    let raw = format.read(&mut input).map_err(|fault| fault.at(path, format))?;
+    raw.finish(path, format)
+}

@@ -1,0 +1,131 @@
+//! Telling formats apart: by content first, by name where the content has no mark.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::error::{Fault, ReadError, broken, quote};
+use crate::input::Input;
+use crate::raw::Raw;
+use crate::{bgeo, ply, pos, vtk};
+
+/// A particle file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// Legacy VTK.
+    Vtk,
+    /// Classic BGEO.
+    Bgeo,
+    /// Count, radius and positions.
+    Pos,
+    /// Stanford PLY.
+    Ply,
+}
+
+impl Format {
+    /// All names, for a message.
+    pub(crate) const NAMES: &str = ".vtk, .bgeo, .pos or .ply";
+
+    /// All formats.
+    pub const ALL: [Self; 4] = [Self::Vtk, Self::Bgeo, Self::Pos, Self::Ply];
+
+    /// The canonical name, which is also the usual file name extension.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vtk => "vtk",
+            Self::Bgeo => "bgeo",
+            Self::Pos => "pos",
+            Self::Ply => "ply",
+        }
+    }
+
+    /// The format that a file name promises.
+    pub(crate) fn of_name(path: &Path) -> Option<Self> {
+        let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+        let name = name.strip_suffix(".gz").unwrap_or(&name);
+        Self::ALL.into_iter().find(|format| name.ends_with(&format!(".{format}")))
+    }
+
+    /// The format of a file.
+    pub(crate) fn of_input(input: &Input, path: &Path) -> Result<Self, ReadError> {
+        let head = input.head();
+        if head.is_empty() && !input.is_gzipped() {
+            return Err(ReadError::Empty { path: path.to_owned() });
+        }
+        if let Some(format) = Self::of_magic(head) {
+            return Ok(format);
+        }
+        if let Some((what, remedy)) = unsupported(head, path) {
+            let (what, remedy) = (what.into(), remedy.into());
+            return Err(ReadError::Unsupported { path: path.to_owned(), what, remedy });
+        }
+        match Self::of_name(path) {
+            Some(Self::Pos) => Ok(Self::Pos),
+            _ if pos::has_size_of(head, input.left()) => Ok(Self::Pos),
+            Some(format) => {
+                let fault: Result<_, Fault> = broken!("it starts with {}, as no such file does", quote(head));
+                fault.map_err(|fault| fault.at(path, format))
+            }
+            None => Err(ReadError::Unrecognised { path: path.to_owned(), start: quote(head) }),
+        }
+    }
+
+    fn of_magic(head: &[u8]) -> Option<Self> {
+        if head.starts_with(vtk::MAGIC) {
+            Some(Self::Vtk)
+        } else if head.starts_with(bgeo::MAGIC) {
+            Some(Self::Bgeo)
+        } else if head.strip_prefix(ply::MAGIC).is_some_and(|rest| rest.starts_with(b"\n") || rest.starts_with(b"\r")) {
+            Some(Self::Ply)
+        } else {
+            None
+        }
+    }
+
+    pub(crate) fn read(self, input: &mut Input) -> Result<Raw, Fault> {
+        match self {
+            Self::Vtk => vtk::read(input),
+            Self::Bgeo => bgeo::read(input),
+            Self::Pos => pos::read(input),
+            Self::Ply => ply::read(input),
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Formats that are known but not read: what the file is, and how to convert it.
+fn unsupported(head: &[u8], path: &Path) -> Option<(&'static str, &'static str)> {
+    const HOUDINI: &str = "write classic .bgeo or .ply from Houdini, or convert with `gconvert in.bgeo out.ply`";
+    const BLENDER: &str = "export the points as .ply, from Blender or Houdini";
+    const PARAVIEW: &str = "save it as legacy .vtk or .ply from ParaView";
+    let known = [
+        (&b"\x7fNSJ"[..], "a .bgeo file of Houdini 12 and later", HOUDINI),
+        (b"NSJb", "a .bgeo file of Houdini 12 and later", HOUDINI),
+        (b"scal", "a blosc-packed Houdini file (.bgeo.sc)", HOUDINI),
+        (b"[\n\t\"fileversion\"", "a .geo file of Houdini 12 and later", HOUDINI),
+        (b"PGEOMETRY", "an ASCII .geo file of Houdini", HOUDINI),
+        (b"\x89HDF\r\n\x1a\n", "an HDF5 file", "write .vtk, .ply or .bgeo with h5py and meshio, or from ParaView"),
+        (b"Ogawa", "an Alembic file", BLENDER),
+        (b"PXR-USDC", "a USD file", BLENDER),
+        (b"#usda", "a USD file", BLENDER),
+        (b"<?xml", "an XML file (such as VTK's .vtu and .vtp)", PARAVIEW),
+        (b"<VTKFile", "a VTK XML file", PARAVIEW),
+        (b"\x93NUMPY", "a NumPy array", "write it as .ply or .vtk with meshio"),
+        (b"PK\x03\x04", "a zip archive (such as .npz and .usdz)", "unpack it, or write .ply or .vtk"),
+        (b"\xda\xba\xfa\x00", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
+        (b"\xda\xba\xda\xfa", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
+    ];
+    let named = [
+        (".abc", "an Alembic file", BLENDER),
+        (".bin", "a .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
+        (".vtkhdf", "a VTKHDF file", PARAVIEW),
+    ];
+    let name = path.file_name().map(|name| name.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let by_magic = known.iter().find(|(magic, ..)| head.starts_with(magic)).map(|&(_, what, remedy)| (what, remedy));
+    by_magic.or_else(|| named.iter().find(|(end, ..)| name.ends_with(end)).map(|&(_, what, remedy)| (what, remedy)))
+}

@@ -1,0 +1,143 @@
+//! One name for each attribute that solvers call by several, and vectors from columns of components.
+
+use crate::raw::Positions;
+use crate::{Attribute, Values};
+
+/// Canonical names with their aliases, best first, and the component counts that make sense.
+const ALIASES: [(&str, &[&str], &[usize]); 5] = [
+    ("velocity", &["velocity", "vel", "v"], &[3]),
+    ("density", &["density", "rho", "Rhop"], &[1]),
+    ("radius", &["radius", "pscale", "width", "widths", "h"], &[1]),
+    ("id", &["id", "Idp"], &[1]),
+    ("color", &["color", "Cd"], &[3, 4]),
+];
+
+/// Columns whose names do not say that they belong together.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("velocity", &["u", "v", "w"]),
+    ("color", &["red", "green", "blue", "alpha"]),
+    ("color", &["red", "green", "blue"]),
+    ("color", &["r", "g", "b", "a"]),
+    ("color", &["r", "g", "b"]),
+];
+
+/// What may follow a vector's name in the names of its columns: `vx`, `velocity:0` (ParaView), `velocity_0`.
+const SUFFIXES: [[&str; 3]; 4] = [["x", "y", "z"], [":0", ":1", ":2"], ["_0", "_1", "_2"], ["[0]", "[1]", "[2]"]];
+
+/// Names of positions as a whole; without a name they are bare x, y, z.
+const POSITIONS: [&str; 7] = ["", "P", "pos", "position", "positions", "points", "coordinates"];
+
+/// Renames what has a canonical name, and brings it into its canonical form.
+pub(crate) fn make_canonical(attributes: &mut [Attribute]) {
+    for (name, aliases, components) in ALIASES {
+        let found = aliases.iter().find_map(|alias| {
+            let fits = |a: &Attribute| a.name.eq_ignore_ascii_case(alias) && components.contains(&a.components);
+            attributes.iter().position(fits)
+        });
+        let Some(attribute) = found.map(|index| &mut attributes[index]) else { continue };
+        let scale = match (name, &attribute.values) {
+            // A width is a diameter.
+            ("radius", _) if attribute.name.to_ascii_lowercase().starts_with("width") => 0.5,
+            ("color", Values::U8(_)) => 1.0 / 255.0,
+            _ => 1.0,
+        };
+        attribute.name = name.into();
+        match (name, &attribute.values) {
+            ("id", Values::U8(ids)) => attribute.values = Values::I64(ids.iter().map(|&id| id.into()).collect()),
+            ("id", Values::I32(ids)) => attribute.values = Values::I64(ids.iter().map(|&id| id.into()).collect()),
+            ("id", _) => {}
+            (_, Values::F32(_)) if scale == 1.0 => {}
+            (_, values) => attribute.values = Values::F32(values.floats().iter().map(|x| x * scale).collect()),
+        }
+    }
+}
+
+/// Takes the positions out of an attribute list, as three columns or as one array.
+pub(crate) fn take_positions(attributes: &mut Vec<Attribute>) -> Option<Positions> {
+    let names_positions =
+        |a: &Attribute| a.components == 3 && POSITIONS.iter().any(|name| a.name.eq_ignore_ascii_case(name));
+    if let Some(index) = attributes.iter().position(names_positions) {
+        return Some(Positions::from_triples(attributes.remove(index).values));
+    }
+    let columns = SUFFIXES.iter().find_map(|suffixes| {
+        POSITIONS.iter().find_map(|base| {
+            ["", "_", "."]
+                .iter()
+                .find_map(|joint| find(attributes, &suffixes.map(|suffix| format!("{base}{joint}{suffix}"))))
+        })
+    })?;
+    let columns = take(attributes, &columns);
+    Some(Positions::from_columns(<[Values; 3]>::try_from(columns).ok()?))
+}
+
+/// Joins the columns of components into vectors.
+pub(crate) fn join_components(attributes: &mut Vec<Attribute>) {
+    for (name, columns) in GROUPS {
+        if let Some(columns) = find(attributes, columns) {
+            join(attributes, name.into(), &columns);
+        }
+    }
+    for suffixes in SUFFIXES {
+        let mut index = 0;
+        while index < attributes.len() {
+            let base = strip_suffix(&attributes[index].name, suffixes[0]).filter(|base| !base.is_empty());
+            let columns = base.and_then(|base| find(attributes, &suffixes.map(|suffix| format!("{base}{suffix}"))));
+            match (base.map(|base| base.trim_end_matches(['_', '.', ':']).to_owned()), columns) {
+                (Some(name), Some(columns)) => {
+                    let name = if name.eq_ignore_ascii_case("n") { "normal".into() } else { name };
+                    join(attributes, name, &columns);
+                }
+                _ => index += 1,
+            }
+        }
+    }
+}
+
+fn strip_suffix<'a>(name: &'a str, suffix: &str) -> Option<&'a str> {
+    let (base, end) = name.split_at_checked(name.len().checked_sub(suffix.len())?)?;
+    end.eq_ignore_ascii_case(suffix).then_some(base)
+}
+
+/// Indices of the single-component attributes of these names, if all are there.
+fn find<S: AsRef<str>>(attributes: &[Attribute], names: &[S]) -> Option<Vec<usize>> {
+    let index_of =
+        |name: &S| attributes.iter().position(|a| a.components == 1 && a.name.eq_ignore_ascii_case(name.as_ref()));
+    names.iter().map(index_of).collect()
+}
+
+fn take(attributes: &mut Vec<Attribute>, columns: &[usize]) -> Vec<Values> {
+    let values = columns.iter().map(|&column| std::mem::replace(&mut attributes[column].values, Values::U8(vec![])));
+    let values = values.collect();
+    let mut index = 0;
+    attributes.retain(|_| {
+        index += 1;
+        !columns.contains(&(index - 1))
+    });
+    values
+}
+
+fn join(attributes: &mut Vec<Attribute>, name: String, columns: &[usize]) {
+    let at = *columns.iter().min().expect("a vector has components");
+    let columns = take(attributes, columns);
+    attributes.insert(at, Attribute { name, components: columns.len(), values: interleave(&columns) });
+}
+
+fn interleave(columns: &[Values]) -> Values {
+    let len = columns[0].len();
+    let same_type = columns.iter().all(|c| std::mem::discriminant(c) == std::mem::discriminant(&columns[0]));
+    let order = || (0..len).flat_map(|row| columns.iter().map(move |column| (column, row)));
+    macro_rules! typed {
+        ($kind:path) => {{
+            let arrays: Vec<_> = columns.iter().filter_map(|c| if let $kind(a) = c { Some(a) } else { None }).collect();
+            $kind((0..len).flat_map(|row| arrays.iter().map(move |array| array[row])).collect())
+        }};
+    }
+    match &columns[0] {
+        _ if !same_type => Values::F64(order().map(|(column, row)| column.get(row)).collect()),
+        Values::U8(_) => typed!(Values::U8),
+        Values::I32(_) => typed!(Values::I32),
+        Values::I64(_) => typed!(Values::I64),
+        Values::F32(_) => typed!(Values::F32),
+        Values::F64(_) => typed!(Values::F64),
+    }
+}

@@ -1,0 +1,176 @@
+//! PLY: ASCII and binary of either byte order, any property types and order. Only the element `vertex` is read.
+
+use crate::error::{Fault, broken, quote};
+use crate::input::{Input, parse};
+use crate::names;
+use crate::raw::Raw;
+use crate::values::{Encoding, Scalar, Slot};
+use crate::{Attribute, Values};
+
+pub(crate) const MAGIC: &[u8] = b"ply";
+
+struct Element {
+    name: String,
+    count: u64,
+    properties: Vec<Property>,
+}
+
+struct Property {
+    name: String,
+    scalar: Scalar,
+    /// The type of the length, for a list.
+    list: Option<Scalar>,
+}
+
+pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
+    let (encoding, elements) = read_header(input)?;
+    for element in elements {
+        if element.name == "vertex" {
+            return read_vertices(input, encoding, element);
+        }
+        skip_element(input, encoding, &element)?;
+    }
+    broken!("it has no element \"vertex\"")
+}
+
+fn read_header(input: &mut Input) -> Result<(Encoding, Vec<Element>), Fault> {
+    let mut encoding = None;
+    let mut elements: Vec<Element> = Vec::new();
+    input.line()?;
+    loop {
+        let Some(line) = input.line()? else { return broken!("its header has no end_header") };
+        let words: Vec<&[u8]> = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
+        match words[..] {
+            [] | [b"comment" | b"obj_info", ..] => {}
+            [b"format", b"ascii", _] => encoding = Some(Encoding::Ascii),
+            [b"format", b"binary_little_endian", _] => encoding = Some(Encoding::Little),
+            [b"format", b"binary_big_endian", _] => encoding = Some(Encoding::Big),
+            [b"element", name, count] => {
+                elements.push(Element { name: text(name), count: parse(count)?, properties: Vec::new() });
+            }
+            [b"property", ref kind @ .., name] if !elements.is_empty() => {
+                let (scalar, list) = match *kind {
+                    [scalar] => (scalar_named(scalar)?, None),
+                    [b"list", length, scalar] => (scalar_named(scalar)?, Some(scalar_named(length)?)),
+                    _ => return broken!("its header has the line {}", quote(&line)),
+                };
+                let element = elements.last_mut().expect("checked above");
+                element.properties.push(Property { name: text(name), scalar, list });
+            }
+            [b"end_header"] => break,
+            _ => return broken!("its header has the line {}", quote(&line)),
+        }
+    }
+    match encoding {
+        Some(encoding) => Ok((encoding, elements)),
+        None => broken!("its header names no format"),
+    }
+}
+
+fn text(word: &[u8]) -> String {
+    String::from_utf8_lossy(word).into_owned()
+}
+
+fn scalar_named(name: &[u8]) -> Result<Scalar, Fault> {
+    Ok(match name {
+        b"char" | b"int8" => Scalar::I8,
+        b"uchar" | b"uint8" => Scalar::U8,
+        b"short" | b"int16" => Scalar::I16,
+        b"ushort" | b"uint16" => Scalar::U16,
+        b"int" | b"int32" => Scalar::I32,
+        b"uint" | b"uint32" => Scalar::U32,
+        b"int64" => Scalar::I64,
+        b"uint64" => Scalar::U64,
+        b"float" | b"float32" => Scalar::F32,
+        b"double" | b"float64" => Scalar::F64,
+        _ => return broken!("its header has the unknown type {}", quote(name)),
+    })
+}
+
+fn read_vertices(input: &mut Input, encoding: Encoding, vertex: Element) -> Result<Raw, Fault> {
+    let Element { count, properties, .. } = vertex;
+    let is_scalar = |property: &&Property| property.list.is_none();
+    if !["x", "y", "z"].iter().all(|axis| properties.iter().filter(is_scalar).any(|p| p.name == *axis)) {
+        return broken!("its element \"vertex\" has no x, y and z");
+    }
+    // The least that one vertex takes: a list may be empty.
+    let capacity = match encoding {
+        Encoding::Ascii => input.claim_words(count.saturating_mul(properties.len() as u64))?.min(count as usize),
+        _ => input.claim(count, properties.iter().map(|p| p.list.unwrap_or(p.scalar).size()).sum())?,
+    };
+    let mut arrays: Vec<Values> = properties.iter().filter(is_scalar).map(|p| p.scalar.array(capacity)).collect();
+    if encoding != Encoding::Ascii && properties.iter().all(|property| property.list.is_none()) {
+        read_records(input, encoding, count, &properties, &mut arrays)?;
+    } else {
+        for _ in 0..count {
+            let mut scalars = arrays.iter_mut();
+            for property in &properties {
+                match property.list {
+                    Some(length) => skip_list(input, encoding, length, property.scalar)?,
+                    None => {
+                        let array = scalars.next().expect("one array for each scalar");
+                        read_scalar(input, encoding, property.scalar, array)?;
+                    }
+                }
+            }
+        }
+    }
+
+    let names = properties.into_iter().filter(|property| property.list.is_none()).map(|property| property.name);
+    let mut attributes: Vec<Attribute> =
+        names.zip(arrays).map(|(name, values)| Attribute { name, components: 1, values }).collect();
+    let Some(positions) = names::take_positions(&mut attributes) else {
+        return broken!("its element \"vertex\" has no x, y and z");
+    };
+    names::join_components(&mut attributes);
+    Ok(Raw { attributes, ..Raw::new(positions) })
+}
+
+fn read_records(
+    input: &mut Input,
+    encoding: Encoding,
+    count: u64,
+    properties: &[Property],
+    arrays: &mut [Values],
+) -> Result<(), Fault> {
+    let mut size = 0;
+    let mut slots = Vec::new();
+    for property in properties {
+        slots.push(Slot { scalar: property.scalar, components: 1, offset: size });
+        size += property.scalar.size();
+    }
+    input.blocks(count, size, |block| {
+        for (array, slot) in arrays.iter_mut().zip(&slots) {
+            array.extend_from_records(block, size, *slot, encoding);
+        }
+    })
+}
+
+fn read_scalar(input: &mut Input, encoding: Encoding, scalar: Scalar, array: &mut Values) -> Result<(), Fault> {
+    if encoding == Encoding::Ascii {
+        return array.push_word(input.word()?);
+    }
+    let mut bytes = [0; 8];
+    let bytes = &mut bytes[..scalar.size()];
+    input.exact(bytes)?;
+    array.extend_from_records(bytes, bytes.len(), Slot { scalar, components: 1, offset: 0 }, encoding);
+    Ok(())
+}
+
+fn skip_list(input: &mut Input, encoding: Encoding, length: Scalar, scalar: Scalar) -> Result<(), Fault> {
+    let length = input.length(length, encoding)?;
+    input.skip_values(scalar, encoding, length)
+}
+
+fn skip_element(input: &mut Input, encoding: Encoding, element: &Element) -> Result<(), Fault> {
+    let count = if element.properties.is_empty() { 0 } else { element.count };
+    for _ in 0..count {
+        for property in &element.properties {
+            match property.list {
+                Some(length) => skip_list(input, encoding, length, property.scalar)?,
+                None => input.skip_values(property.scalar, encoding, 1)?,
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,33 @@
+//! `.pos`: u32 count, f32 radius, then count * (f32 x, y, z), little-endian, and nothing else.
+
+use crate::error::{Fault, broken};
+use crate::input::Input;
+use crate::raw::{Positions, Raw};
+
+const HEADER: u64 = 8;
+const POINT: u64 = 12;
+
+/// The layout has no magic; its size is what gives it away.
+pub(crate) fn has_size_of(head: &[u8], size: u64) -> bool {
+    head.first_chunk().is_some_and(|&count| size == HEADER + POINT * u64::from(u32::from_le_bytes(count)))
+}
+
+pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
+    let size = input.left();
+    if size < HEADER && !input.is_gzipped() {
+        return broken!("its {size} bytes are less than the header's {HEADER}");
+    }
+    let count = u64::from(u32::from_le_bytes(input.bytes()?));
+    let radius = f32::from_le_bytes(input.bytes()?);
+    if !input.is_gzipped() && size != HEADER + POINT * count {
+        return broken!("{count} particles take {} bytes, but it has {size}", HEADER + POINT * count);
+    }
+    let positions = input.records(count, |bytes: &[u8; POINT as usize]| {
+        let (coordinates, _) = bytes.as_chunks();
+        [0, 1, 2].map(|axis| f32::from_le_bytes(coordinates[axis]))
+    })?;
+    if !input.at_end()? {
+        return broken!("bytes follow its {count} particles");
+    }
+    Ok(Raw { file_radius: Some(f64::from(radius)), ..Raw::new(Positions::F32(positions)) })
+}

@@ -1,0 +1,191 @@
+//! Typed arrays and how numbers of any type become one.
+
+use std::borrow::Cow;
+
+use crate::error::{Fault, broken};
+use crate::input::{Input, parse};
+
+/// The numbers of an attribute, one particle after the other, in a type that holds what the file has exactly.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Values {
+    /// Bytes.
+    U8(Vec<u8>),
+    /// Integers of up to 32 bits with a sign, or 16 without.
+    I32(Vec<i32>),
+    /// Larger integers. 64 bits without a sign wrap.
+    I64(Vec<i64>),
+    /// Single precision.
+    F32(Vec<f32>),
+    /// Double precision.
+    F64(Vec<f64>),
+}
+
+impl Values {
+    /// How many numbers there are: particles times components.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::U8(array) => array.len(),
+            Self::I32(array) => array.len(),
+            Self::I64(array) => array.len(),
+            Self::F32(array) => array.len(),
+            Self::F64(array) => array.len(),
+        }
+    }
+
+    /// True if there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The numbers as f32, copied only if they are of another type.
+    pub fn floats(&self) -> Cow<'_, [f32]> {
+        match self {
+            Self::F32(array) => Cow::Borrowed(array),
+            Self::F64(array) => array.iter().map(|&x| x as f32).collect(),
+            Self::U8(array) => array.iter().map(|&x| f32::from(x)).collect(),
+            Self::I32(array) => array.iter().map(|&x| x as f32).collect(),
+            Self::I64(array) => array.iter().map(|&x| x as f32).collect(),
+        }
+    }
+
+    /// One number as f64.
+    pub fn get(&self, index: usize) -> f64 {
+        match self {
+            Self::U8(array) => f64::from(array[index]),
+            Self::I32(array) => f64::from(array[index]),
+            Self::I64(array) => array[index] as f64,
+            Self::F32(array) => f64::from(array[index]),
+            Self::F64(array) => array[index],
+        }
+    }
+}
+
+/// A number type of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    I64,
+    U64,
+    F32,
+    F64,
+}
+
+/// How a file writes its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    Ascii,
+    Little,
+    Big,
+}
+
+/// Where a value lies in each fixed-size record of a file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slot {
+    pub scalar: Scalar,
+    pub components: usize,
+    pub offset: usize,
+}
+
+impl Scalar {
+    pub fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::I64 | Self::U64 | Self::F64 => 8,
+        }
+    }
+
+    pub fn array(self, capacity: usize) -> Values {
+        match self {
+            Self::U8 => Values::U8(Vec::with_capacity(capacity)),
+            Self::I8 | Self::I16 | Self::U16 | Self::I32 => Values::I32(Vec::with_capacity(capacity)),
+            Self::U32 | Self::I64 | Self::U64 => Values::I64(Vec::with_capacity(capacity)),
+            Self::F32 => Values::F32(Vec::with_capacity(capacity)),
+            Self::F64 => Values::F64(Vec::with_capacity(capacity)),
+        }
+    }
+}
+
+impl Values {
+    pub(crate) fn push_word(&mut self, word: &[u8]) -> Result<(), Fault> {
+        match self {
+            Self::U8(array) => array.push(parse(word)?),
+            Self::I32(array) => array.push(parse(word)?),
+            Self::I64(array) => array.push(parse(word).or_else(|_| parse::<u64>(word).map(|x| x as i64))?),
+            Self::F32(array) => array.push(parse(word)?),
+            Self::F64(array) => array.push(parse(word)?),
+        }
+        Ok(())
+    }
+
+    /// Appends the values at `slot` of each record of `size` bytes.
+    pub(crate) fn extend_from_records(&mut self, records: &[u8], size: usize, slot: Slot, encoding: Encoding) {
+        let big = encoding == Encoding::Big;
+        macro_rules! extend {
+            ($array:expr, $from:ty, $to:ty) => {
+                for record in records.chunks_exact(size) {
+                    let bytes = &record[slot.offset..][..slot.components * size_of::<$from>()];
+                    $array.extend(bytes.as_chunks().0.iter().map(|&bytes| {
+                        (if big { <$from>::from_be_bytes(bytes) } else { <$from>::from_le_bytes(bytes) }) as $to
+                    }));
+                }
+            };
+        }
+        match (self, slot.scalar) {
+            (Self::U8(array), _) => extend!(array, u8, u8),
+            (Self::I32(array), Scalar::I8) => extend!(array, i8, i32),
+            (Self::I32(array), Scalar::I16) => extend!(array, i16, i32),
+            (Self::I32(array), Scalar::U16) => extend!(array, u16, i32),
+            (Self::I32(array), _) => extend!(array, i32, i32),
+            (Self::I64(array), Scalar::U32) => extend!(array, u32, i64),
+            (Self::I64(array), Scalar::U64) => extend!(array, u64, i64),
+            (Self::I64(array), _) => extend!(array, i64, i64),
+            (Self::F32(array), _) => extend!(array, f32, f32),
+            (Self::F64(array), _) => extend!(array, f64, f64),
+        }
+    }
+}
+
+impl Input {
+    /// An array of `count` numbers.
+    pub fn values(&mut self, scalar: Scalar, encoding: Encoding, count: u64) -> Result<Values, Fault> {
+        if encoding == Encoding::Ascii {
+            let mut values = scalar.array(self.claim_words(count)?);
+            for _ in 0..count {
+                values.push_word(self.word()?)?;
+            }
+            return Ok(values);
+        }
+        let mut values = scalar.array(self.claim(count, scalar.size())?);
+        let slot = Slot { scalar, components: 1, offset: 0 };
+        let size = scalar.size();
+        self.blocks(count, size, |block| values.extend_from_records(block, size, slot, encoding))?;
+        Ok(values)
+    }
+
+    /// Passes over an array of `count` numbers.
+    pub fn skip_values(&mut self, scalar: Scalar, encoding: Encoding, count: u64) -> Result<(), Fault> {
+        if encoding == Encoding::Ascii {
+            self.claim_words(count)?;
+            return (0..count).try_for_each(|_| self.word().map(drop));
+        }
+        self.claim(count, scalar.size())?;
+        self.skip(count * scalar.size() as u64)
+    }
+
+    /// One whole number, as the length of a list or string.
+    pub fn length(&mut self, scalar: Scalar, encoding: Encoding) -> Result<u64, Fault> {
+        let length = self.values(scalar, encoding, 1)?.get(0);
+        if length < 0.0 || length.fract() != 0.0 {
+            return broken!("a list cannot have {length} entries");
+        }
+        Ok(length as u64)
+    }
+}
