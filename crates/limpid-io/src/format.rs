@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{Fault, ReadError, broken, quote};
 use crate::input::Input;
 use crate::raw::Raw;
-use crate::{bgeo, ply, pos, vtk};
+use crate::{bgeo, json, ply, pos, table, vtk};
 
 /// A particle file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,14 +20,20 @@ pub enum Format {
     Pos,
     /// Stanford PLY.
     Ply,
+    /// Text with a column for each component.
+    Csv,
+    /// Text with a particle on each line; extended XYZ with its column names too.
+    Xyz,
+    /// An array of positions, or an object of arrays.
+    Json,
 }
 
 impl Format {
     /// All names, for a message.
-    pub(crate) const NAMES: &str = ".vtk, .bgeo, .pos or .ply";
+    pub(crate) const NAMES: &str = ".vtk, .bgeo, .pos, .ply, .csv, .xyz or .json";
 
     /// All formats.
-    pub const ALL: [Self; 4] = [Self::Vtk, Self::Bgeo, Self::Pos, Self::Ply];
+    pub const ALL: [Self; 7] = [Self::Vtk, Self::Bgeo, Self::Pos, Self::Ply, Self::Csv, Self::Xyz, Self::Json];
 
     /// The canonical name, which is also the usual file name extension.
     pub fn name(self) -> &'static str {
@@ -36,6 +42,9 @@ impl Format {
             Self::Bgeo => "bgeo",
             Self::Pos => "pos",
             Self::Ply => "ply",
+            Self::Csv => "csv",
+            Self::Xyz => "xyz",
+            Self::Json => "json",
         }
     }
 
@@ -62,6 +71,12 @@ impl Format {
         match Self::of_name(path) {
             Some(Self::Pos) => Ok(Self::Pos),
             _ if pos::has_size_of(head, input.left()) => Ok(Self::Pos),
+            Some(Self::Csv | Self::Xyz) if head.iter().any(|byte| *byte < b'\t') => Err(ReadError::Unsupported {
+                path: path.to_owned(),
+                what: "a file of bare binary numbers".into(),
+                remedy: "its layout cannot be told; write it as text, .pos or .ply".into(),
+            }),
+            Some(format @ (Self::Csv | Self::Xyz | Self::Json)) => Ok(format),
             Some(format) => {
                 let fault: Result<_, Fault> = broken!("it starts with {}, as no such file does", quote(head));
                 fault.map_err(|fault| fault.at(path, format))
@@ -88,6 +103,8 @@ impl Format {
             Self::Bgeo => bgeo::read(input),
             Self::Pos => pos::read(input),
             Self::Ply => ply::read(input),
+            Self::Csv | Self::Xyz => table::read(input),
+            Self::Json => json::read(input),
         }
     }
 }

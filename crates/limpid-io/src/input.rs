@@ -147,6 +147,12 @@ impl Input {
     /// The next line without its end, or `None` at the end of the file.
     pub fn line(&mut self) -> Result<Option<Vec<u8>>, Fault> {
         let mut line = Vec::new();
+        Ok(self.line_into(&mut line)?.then_some(line))
+    }
+
+    /// The same into a buffer, for many lines; false at the end of the file.
+    pub fn line_into(&mut self, line: &mut Vec<u8>) -> Result<bool, Fault> {
+        line.clear();
         loop {
             let buffer = self.reader.fill_buf()?;
             let end = buffer.iter().position(|&byte| byte == b'\n');
@@ -154,16 +160,16 @@ impl Input {
             let (empty, bytes) = (buffer.is_empty(), end.map_or(buffer.len(), |end| end + 1));
             self.consume(bytes);
             if line.len() > LONGEST_LINE {
-                return broken!("a line of text is longer than {LONGEST_LINE} bytes: {}", quote(&line));
+                return broken!("a line of text is longer than {LONGEST_LINE} bytes: {}", quote(line));
             }
             if end.is_some() || empty {
                 if line.is_empty() && empty {
-                    return Ok(None);
+                    return Ok(false);
                 }
                 if line.last() == Some(&b'\r') {
                     line.pop();
                 }
-                return Ok(Some(line));
+                return Ok(true);
             }
         }
     }
@@ -194,6 +200,11 @@ impl Input {
             }
         }
         if self.word.is_empty() { broken!("it ends too early") } else { Ok(&self.word) }
+    }
+
+    /// Everything that is left, for formats whose text another crate parses.
+    pub fn rest(&mut self) -> impl Read {
+        &mut self.reader
     }
 }
 

@@ -8,6 +8,7 @@ mod bgeo;
 mod error;
 mod format;
 mod input;
+mod json;
 mod names;
 mod particles;
 mod ply;
@@ -16,6 +17,7 @@ mod radius;
 mod raw;
 mod sequence;
 mod spacing;
+mod table;
 mod values;
 mod vtk;
 

@@ -45,6 +45,9 @@ pub(crate) fn make_canonical(attributes: &mut [Attribute]) {
         match (name, &attribute.values) {
             ("id", Values::U8(ids)) => attribute.values = Values::I64(ids.iter().map(|&id| id.into()).collect()),
             ("id", Values::I32(ids)) => attribute.values = Values::I64(ids.iter().map(|&id| id.into()).collect()),
+            ("id", Values::F64(ids)) if ids.iter().all(|id| id.fract() == 0.0) => {
+                attribute.values = Values::I64(ids.iter().map(|&id| id as i64).collect());
+            }
             ("id", _) => {}
             (_, Values::F32(_)) if scale == 1.0 => {}
             (_, values) => attribute.values = Values::F32(values.floats().iter().map(|x| x * scale).collect()),

@@ -143,7 +143,8 @@ fn split(path: PathBuf) -> (Name, Frame) {
 fn folder(input: &str, folder: &Path) -> Result<Groups, ReadError> {
     let mut groups = Groups::new();
     for path in list(input, folder)? {
-        if Format::of_name(&path).is_some() {
+        // JSON beside particles is more often about them than particles itself.
+        if Format::of_name(&path).is_some_and(|format| format != Format::Json) {
             let (name, frame) = split(path);
             groups.entry(name).or_default().push(frame);
         }

@@ -67,13 +67,16 @@ fn all_encodings_of_a_frame_are_the_same_bit_for_bit() {
     let json = std::fs::read(data("formats/jet_22.json")).unwrap();
     let written: Vec<[f32; 3]> = serde_json::from_slice(&json).unwrap();
     assert!(written == reference.positions);
-    for name in ["gzip.bgeo", "binary.vtk", "ascii.vtk", "polydata.vtk", "ascii.ply", "le.ply"] {
-        let set = read(&data(&format!("formats/jet_22_{name}"))).unwrap();
+    for name in ["_gzip.bgeo", "_binary.vtk", "_ascii.vtk", "_polydata.vtk", "_ascii.ply", "_le.ply", ".csv"] {
+        let set = read(&data(&format!("formats/jet_22{name}"))).unwrap();
         assert!(bits(&set) == bits(&reference), "{name}");
         for attribute in &set.attributes {
             assert_same(attribute, reference.attribute(&attribute.name).unwrap(), name);
         }
         assert!(set.attributes.len() >= 2, "{name}");
+    }
+    for name in [".json", "_text.xyz"] {
+        assert!(bits(&read(&data(&format!("formats/jet_22{name}"))).unwrap()) == bits(&reference), "{name}");
     }
     let pos = read(&data("formats/jet_22.pos")).unwrap();
     assert!(bits(&pos) == bits(&reference));
