@@ -1,2 +1,32 @@
 //! The program `limpid`.
-fn main() {}
+
+mod adapters;
+mod cli;
+mod console;
+mod failure;
+mod info;
+mod render;
+mod write;
+
+use cli::{Command, Parsed};
+use failure::Failure;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            console::note(&format!("error: {}", failure::one_line(&failure.to_string())));
+            failure.exit_code()
+        }
+    }
+}
+
+fn run() -> Result<(), Failure> {
+    match cli::parse(std::env::args_os())? {
+        Parsed::Text(text) => console::print(&text),
+        Parsed::Command(Command::Render(arguments)) => render::run(arguments),
+        Parsed::Command(Command::Info(arguments)) => info::run(&arguments),
+        Parsed::Command(Command::Adapters) => adapters::run(),
+    }
+}

@@ -1,0 +1,60 @@
+//! The command line: subcommands, their help, usage errors in one line.
+
+use crate::failure::Failure;
+use crate::info::InfoArguments;
+use crate::render::{RenderArguments, describe_options};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
+
+/// Pictures of a liquid from the particle files of fluid simulations.
+#[derive(Debug, Parser)]
+#[command(name = "limpid", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What the program does.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render particle files to pictures
+    Render(Box<RenderArguments>),
+    /// Say what particle files hold
+    Info(InfoArguments),
+    /// List what this machine can render on
+    Adapters,
+}
+
+/// What the command line asks for.
+pub enum Parsed {
+    /// To do this.
+    Command(Command),
+    /// To print this: help or version.
+    Text(String),
+}
+
+/// Reads the command line.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, Failure> {
+    let command = Cli::command().mut_subcommand("render", describe_options);
+    let parsed = command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches));
+    match parsed {
+        Ok(cli) => Ok(Parsed::Command(cli.command)),
+        Err(error) => match error.kind() {
+            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Ok(Parsed::Text(error.render().to_string())),
+            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+                Err(Failure::usage("no command given: try `limpid render INPUT -o OUT.png` or `limpid --help`"))
+            }
+            _ => Err(Failure::usage(usage_error(&error))),
+        },
+    }
+}
+
+/// clap's message without its usage block, which would make several lines of it.
+fn usage_error(error: &clap::Error) -> String {
+    let text = error.render().to_string();
+    let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
+    let message = lines.join(" ");
+    format!("{} (see `limpid --help`)", message.strip_prefix("error: ").unwrap_or(&message))
+}

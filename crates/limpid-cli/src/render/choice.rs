@@ -1,0 +1,111 @@
+//! Options that are one of a few names. Each list of names is here and nowhere else.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use limpid::{Filter, Scale};
+use limpid_headless::Background;
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// Values with names.
+pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
+    /// Every value and its name.
+    const ALL: &'static [(&'static str, Self)];
+}
+
+impl Choice for Filter {
+    const ALL: &'static [(&'static str, Self)] = &[("narrow-range", Self::NarrowRange), ("none", Self::None)];
+}
+
+impl Choice for Scale {
+    const ALL: &'static [(&'static str, Self)] = &[("1", Self::Full), ("2", Self::Half), ("4", Self::Quarter)];
+}
+
+impl Choice for Background {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("scene", Self::Scene), ("white", Self::White), ("black", Self::Black), ("transparent", Self::Transparent)];
+}
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl Choice for Axis {
+    const ALL: &'static [(&'static str, Self)] = &[("x", Self::X), ("y", Self::Y), ("z", Self::Z)];
+}
+
+/// Speed against looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quality {
+    Draft,
+    Standard,
+    High,
+}
+
+impl Choice for Quality {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("draft", Self::Draft), ("standard", Self::Standard), ("high", Self::High)];
+}
+
+/// A value that is written as its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Named<T>(pub T);
+
+impl<T: Choice> Named<T> {
+    fn of(name: &str) -> Result<Self, String> {
+        let found = T::ALL.iter().find(|(known, _)| *known == name);
+        found.map(|(_, value)| Self(*value)).ok_or_else(|| {
+            let names: Vec<&str> = T::ALL.iter().map(|(name, _)| *name).collect();
+            format!("\"{name}\" is none of {}", names.join(", "))
+        })
+    }
+
+    fn name(self) -> &'static str {
+        T::ALL.iter().find(|(_, value)| *value == self.0).map_or("", |(name, _)| name)
+    }
+}
+
+/// Reads a name on the command line.
+pub fn choice<T: Choice>() -> impl TypedValueParser<Value = Named<T>> {
+    PossibleValuesParser::new(T::ALL.iter().map(|(name, _)| *name)).try_map(|name| Named::of(&name))
+}
+
+impl<T: Choice> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.name().parse::<i64>() {
+            Ok(number) => serializer.serialize_i64(number),
+            Err(_) => serializer.serialize_str(self.name()),
+        }
+    }
+}
+
+impl<'de, T: Choice> Deserialize<'de> for Named<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NameVisitor(PhantomData))
+    }
+}
+
+/// Takes names as strings, and those that are numbers as integers too.
+struct NameVisitor<T>(PhantomData<T>);
+
+impl<T: Choice> Visitor<'_> for NameVisitor<T> {
+    type Value = Named<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = T::ALL.iter().map(|(name, _)| *name).collect();
+        write!(f, "one of {}", names.join(", "))
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+        Named::of(name).map_err(E::custom)
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
+        Named::of(&number.to_string()).map_err(E::custom)
+    }
+}

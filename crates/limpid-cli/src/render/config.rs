@@ -1,0 +1,156 @@
+//! Layers of options: defaults, then a configuration file, then the command line.
+
+use super::limits::{self, Range};
+use super::options::{ALTERNATIVES, Options};
+use crate::failure::Failure;
+use clap::{Args, Command};
+use std::fs;
+use std::path::Path;
+use toml::{Table, Value};
+
+/// Every option as it will be used.
+pub fn effective(flags: &Options, file: Option<&Path>) -> Result<Options, Failure> {
+    let mut table = Table::try_from(Options::defaults())?;
+    if let Some(path) = file {
+        overlay(&mut table, &read(path)?).map_err(|problem| in_file(path, &problem))?;
+    }
+    overlay(&mut table, flags).map_err(Failure::usage)?;
+    limits::check(&table)?;
+    table.try_into().map_err(|error: toml::de::Error| Failure::Text(error.message().into()))
+}
+
+/// Puts a layer over those below. What its choices imply goes under it, but over what is below: `--quality draft` wins
+/// over a scale in the file, and a scale on the command line wins over both.
+fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
+    let as_table = |options: &Options| Table::try_from(options).map_err(|error| error.to_string());
+    let (implied, layer) = (as_table(&layer.implied())?, as_table(layer)?);
+    for [one, other] in ALTERNATIVES {
+        match (layer.contains_key(one), layer.contains_key(other)) {
+            (true, true) => return Err(format!("--{one} and --{other} exclude each other: give one of them")),
+            (true, false) => drop(table.remove(other)),
+            (false, true) => drop(table.remove(one)),
+            (false, false) => {}
+        }
+    }
+    table.extend(implied);
+    table.extend(layer);
+    Ok(())
+}
+
+fn in_file(path: &Path, problem: &str) -> Failure {
+    Failure::usage(format!("{}: {problem}", path.display()))
+}
+
+fn read(path: &Path) -> Result<Options, Failure> {
+    let text = fs::read_to_string(path)
+        .map_err(|error| in_file(path, &format!("cannot be read ({error}); check --config")))?;
+    toml::from_str(&text).map_err(|error| {
+        let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+        in_file(path, &format!("line {line}: {}", error.message()))
+    })
+}
+
+/// A configuration as a file that [`read`] takes, each key explained.
+pub fn print(options: &Options) -> Result<String, Failure> {
+    let table = Table::try_from(options)?;
+    let mut text =
+        String::from("# Options of limpid render, for --config. Paths are relative to the working folder.\n");
+    for argument in described().get_arguments() {
+        let name = argument.get_id().as_str().replace('_', "-");
+        let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
+        let line = match table.get(&name) {
+            Some(value) => format!("{name} = {value}"),
+            None => format!("# {name} is not set"),
+        };
+        text.push_str(&format!("\n# {help}\n{line}\n"));
+    }
+    Ok(text)
+}
+
+/// A command of the options alone.
+fn described() -> Command {
+    describe_options(Options::augment_args(Command::new("render")))
+}
+
+/// Adds ranges and defaults to the help of the options.
+pub fn describe_options(command: Command) -> Command {
+    let defaults = Table::try_from(Options::defaults()).unwrap_or_default();
+    command.mut_args(|argument| {
+        let name = argument.get_id().as_str().replace('_', "-");
+        let Some(help) = argument.get_help().map(ToString::to_string) else { return argument };
+        let range = Range::of(&name).map(|range| format!(" [{range}]")).unwrap_or_default();
+        let default = defaults.get(&name).filter(|value| **value != Value::Boolean(false));
+        let default = default.map(|value| format!(" [default: {}]", as_flag(value))).unwrap_or_default();
+        argument.help(format!("{help}{range}{default}"))
+    })
+}
+
+/// A value as it is written on the command line.
+fn as_flag(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(number) => limits::short(*number),
+        Value::Array(values) => values.iter().map(as_flag).collect::<Vec<_>>().join(","),
+        value => value.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Options that are no numbers; all others need a range.
+    const NOT_NUMBERS: [&str; 11] = [
+        "input",
+        "output",
+        "size",
+        "up",
+        "filter",
+        "quality",
+        "thickness-scale",
+        "background",
+        "aov",
+        "timings",
+        "adapter",
+    ];
+
+    #[test]
+    fn every_number_has_a_range() {
+        for argument in described().get_arguments() {
+            let name = argument.get_id().as_str().replace('_', "-");
+            let number = !NOT_NUMBERS.contains(&name.as_str()) && name != "quiet";
+            assert_eq!(Range::of(&name).is_some(), number, "{name}");
+        }
+    }
+
+    #[test]
+    fn defaults_are_within_their_ranges_and_give_the_default_settings() {
+        let options = effective(&Options::default(), None).unwrap();
+        assert_eq!(options, Options::defaults());
+        assert_eq!(options.settings(), limpid::Settings::default());
+    }
+
+    #[test]
+    fn a_choice_resets_what_it_implies_unless_the_same_layer_says_otherwise() {
+        let mut table = Table::try_from(Options::defaults()).unwrap();
+        let layer = |text: &str| toml::from_str::<Options>(text).unwrap();
+        overlay(&mut table, &layer("thickness-scale = 1\nstrength = 3.0")).unwrap();
+        overlay(&mut table, &layer("quality = \"draft\"")).unwrap();
+        assert_eq!(table["thickness-scale"], Value::Integer(4));
+        assert_eq!(table["strength"], Value::Float(3.0));
+        overlay(&mut table, &layer("quality = \"high\"\nthickness-scale = 2\nfilter = \"narrow-range\"")).unwrap();
+        assert_eq!(table["thickness-scale"], Value::Integer(2));
+        assert_eq!(table["strength"], Table::try_from(Options::defaults()).unwrap()["strength"]);
+    }
+
+    #[test]
+    fn alternatives_replace_each_other() {
+        let mut table = Table::try_from(Options::defaults()).unwrap();
+        overlay(&mut table, &Options { ortho: Some(2.0), ..Options::default() }).unwrap();
+        assert!(!table.contains_key("fov"));
+        overlay(&mut table, &Options { fov: Some(30.0), ..Options::default() }).unwrap();
+        assert!(!table.contains_key("ortho"));
+        let both = Options { fov: Some(30.0), ortho: Some(1.0), ..Options::default() };
+        assert!(overlay(&mut table, &both).is_err());
+    }
+}

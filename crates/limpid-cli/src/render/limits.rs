@@ -1,0 +1,127 @@
+//! What numbers the options accept.
+
+use crate::failure::Failure;
+use std::fmt;
+use toml::{Table, Value};
+
+/// Which numbers an option accepts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any number but NaN and the infinities.
+    Finite,
+    /// Both ends are accepted.
+    Within(f64, f64),
+}
+
+/// The range of every option that is a number or several numbers, by its name.
+const RANGES: &[(&str, Range)] = &[
+    ("camera-eye", Range::Finite),
+    ("camera-target", Range::Finite),
+    ("camera-up", Range::Finite),
+    ("fov", Range::Within(0.1, 179.0)),
+    ("ortho", Range::Within(1e-12, 1e12)),
+    ("radius", Range::Within(1e-12, 1e12)),
+    ("splat-scale", Range::Within(0.5, 4.0)),
+    ("strength", Range::Within(0.0, 20.0)),
+    ("iterations", Range::Within(1.0, 100.0)),
+    ("filter-max-px", Range::Within(1.0, 256.0)),
+    ("filter-range", Range::Within(0.01, 1000.0)),
+    ("filter-clamp", Range::Within(0.0, 1000.0)),
+    ("min-thickness", Range::Within(0.0, 1e6)),
+    ("density-threshold", Range::Within(0.0, 1e12)),
+    ("normal-step", Range::Within(0.01, 1000.0)),
+    ("exposure", Range::Within(0.0, 1000.0)),
+    ("refractive-index", Range::Within(1.0, 3.0)),
+    ("absorption", Range::Within(0.0, 1e6)),
+    ("absorption-per-world", Range::Within(0.0, 1e12)),
+    ("color", Range::Within(0.0, 1000.0)),
+    ("refraction", Range::Within(0.0, 4.0)),
+    ("specular", Range::Within(0.0, 4.0)),
+    ("shininess", Range::Within(1.0, 4096.0)),
+];
+
+impl Range {
+    /// The range of an option.
+    pub fn of(option: &str) -> Option<Self> {
+        RANGES.iter().find(|(name, _)| *name == option).map(|(_, range)| *range)
+    }
+
+    fn holds(self, value: f64) -> bool {
+        match self {
+            Self::Finite => value.is_finite(),
+            Self::Within(least, most) => (least..=most).contains(&value),
+        }
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finite => write!(f, "finite"),
+            Self::Within(least, most) => write!(f, "{} to {}", short(*least), short(*most)),
+        }
+    }
+}
+
+/// A number in few characters.
+pub fn short(value: f64) -> String {
+    let size = value.abs();
+    if value.is_finite() && size != 0.0 && !(1e-4..1e6).contains(&size) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
+/// Checks every number of a configuration.
+pub fn check(options: &Table) -> Result<(), Failure> {
+    for (name, value) in options {
+        if let Some(range) = Range::of(name)
+            && let Some(bad) = numbers(value).into_iter().find(|number| !range.holds(*number))
+        {
+            return Err(Failure::usage(format!("--{name} is {}, but must be {range}", short(bad))));
+        }
+    }
+    Ok(())
+}
+
+/// All numbers of a value.
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Float(number) => vec![*number],
+        Value::Integer(number) => vec![*number as f64],
+        Value::Array(values) => values.iter().flat_map(numbers).collect(),
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::options::Options;
+
+    #[test]
+    fn the_library_accepts_both_ends_of_every_range() {
+        for (name, range) in RANGES {
+            let Range::Within(least, most) = *range else { continue };
+            for end in [least, most] {
+                let forms = [format!("{end:?}"), format!("{}", end as i64), format!("[{end:?}, {end:?}, {end:?}]")];
+                let options = forms.iter().find_map(|form| toml::from_str::<Options>(&format!("{name} = {form}")).ok());
+                options.expect(name).settings().check().expect(name);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_outside_a_range_is_accepted() {
+        for text in ["fov = nan", "fov = 180", "splat-scale = -1", "camera-eye = [0, inf, 0]", "color = [0, 0, -0.1]"] {
+            let error = check(&toml::from_str(text).unwrap()).unwrap_err().to_string();
+            assert!(error.starts_with("--") && error.contains("must be"), "{error}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([0.5, 4.0, 1e12, 1e-12, 16384.0].map(short), ["0.5", "4", "1e12", "1e-12", "16384"]);
+    }
+}

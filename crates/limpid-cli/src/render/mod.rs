@@ -1,0 +1,96 @@
+//! `limpid render`: from particle files to pictures.
+
+mod camera;
+mod choice;
+mod config;
+mod frame;
+mod limits;
+mod options;
+mod outputs;
+mod progress;
+mod size;
+mod survey;
+mod timings;
+
+pub use config::describe_options;
+
+use crate::console;
+use crate::failure::Failure;
+use crate::write::{write_aov, write_picture};
+use camera::Stage;
+use clap::Args;
+use frame::FrameParticles;
+use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
+use options::Options;
+use outputs::{FrameOutputs, Outputs};
+use progress::Progress;
+use std::path::{Path, PathBuf};
+use survey::Survey;
+
+/// The command line of `limpid render`.
+#[derive(Args, Debug)]
+pub struct RenderArguments {
+    #[command(flatten)]
+    options: Options,
+    /// Read options from this file, keys named like the options; options on the command line win
+    #[arg(long, value_name = "FILE.toml")]
+    config: Option<PathBuf>,
+    /// Print all options as they would be used, in the form that --config reads, and stop
+    #[arg(long)]
+    print_config: bool,
+}
+
+/// Renders every frame and writes its files.
+pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
+    let options = config::effective(&arguments.options, arguments.config.as_deref())?;
+    if arguments.print_config {
+        return console::print(&config::print(&options)?);
+    }
+    let quiet = options.quiet();
+    let inputs = options.inputs()?;
+    let sequence = limpid_io::expand(inputs)?;
+    for warning in &sequence.warnings {
+        console::warn(warning);
+    }
+    let outputs = Outputs::plan(&options, &sequence.frames)?;
+    outputs.check()?;
+    let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
+
+    let survey = Survey::of(&sequence.frames, &options)?;
+    if let (false, Some(radius)) = (quiet, survey.radius_note()) {
+        console::note(&radius);
+    }
+    let stage = Stage::of(&options, &survey)?;
+    let progress = Progress::new("rendering", sequence.frames.len(), quiet);
+    for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
+        let set = survey.read(&frame.path)?;
+        let particles = FrameParticles::of(set, &survey)?;
+        let shot = stage.shot(&options, &particles);
+        render(&mut offscreen, &shot, &outputs.aovs, files, &frame.path)?;
+        if index + 1 == sequence.frames.len()
+            && let Some(target) = &outputs.timings
+        {
+            timings::measure(&mut offscreen, &shot, target, &frame.path)?;
+        }
+        progress.advance();
+    }
+    progress.finish();
+    if !quiet { outputs.report() } else { Ok(()) }
+}
+
+/// Renders one frame and writes its picture and buffers.
+fn render(
+    offscreen: &mut Offscreen,
+    shot: &Shot<'_>,
+    aovs: &[outputs::AovKind],
+    files: &FrameOutputs,
+    input: &Path,
+) -> Result<(), Failure> {
+    let kinds: Vec<Aov> = aovs.iter().map(|kind| kind.aov).collect();
+    let picture = offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
+    write_picture(&files.picture, &picture, shot.background != Background::Transparent)?;
+    for ((kind, path), image) in aovs.iter().zip(&files.aovs).zip(&picture.aovs) {
+        write_aov(path, kind.format, kind.aov, image)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,294 @@
+//! Every option of `limpid render`, as flags and as keys of a configuration file.
+
+use super::choice::{Axis, Named, Quality, choice};
+use super::size::Size;
+use crate::failure::Failure;
+use clap::{ArgAction, Args};
+use glam::DVec3;
+use limpid::{Absorption, Filter, Scale, Settings, Smoothing};
+use limpid_headless::Background;
+use serde::{Deserialize, Serialize};
+
+/// Vertical field of view in degrees where nothing else is asked for.
+const FOV_DEGREES: f64 = 45.0;
+
+/// The light is shown as it is.
+const EXPOSURE: f64 = 1.0;
+
+/// The options; what is not given is None. Ranges and defaults are added to the help from their own places.
+#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Options {
+    /// Particle files, a folder, or a pattern of numbered files (`frame_{}.vtk`, `frame_%04d.bgeo`, `frame_####.ply`, a glob)
+    #[arg(value_name = "INPUT")]
+    pub input: Option<Vec<String>>,
+    /// Picture to write, .png; for several frames with `{}`, `%04d` or `####` in place of the number, else it is added
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: Option<String>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<Size>,
+
+    /// Position of the camera, world units; without it the camera frames the fluid
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Camera")]
+    pub camera_eye: Option<[f64; 3]>,
+    /// What the camera looks at, world units; without it the centre of the fluid
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Camera")]
+    pub camera_target: Option<[f64; 3]>,
+    /// What is up in the picture; without it the data's up axis
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Camera")]
+    pub camera_up: Option<[f64; 3]>,
+    /// Vertical field of view in degrees
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, help_heading = "Camera")]
+    pub fov: Option<f64>,
+    /// Orthographic view of this many world units from bottom to top, instead of a field of view
+    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true, help_heading = "Camera")]
+    pub ortho: Option<f64>,
+    /// The data's up axis
+    #[arg(long, value_name = "AXIS", value_parser = choice::<Axis>(), help_heading = "Camera")]
+    pub up: Option<Named<Axis>>,
+
+    /// Particle radius in world units; without it the file's, else half the estimated spacing
+    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Surface")]
+    pub radius: Option<f64>,
+    /// Drawn radius over particle radius; never changes the thickness
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Surface")]
+    pub splat_scale: Option<f64>,
+    /// Leave particles of lower density out of the picture, in the file's unit; 0 keeps all
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
+    pub density_threshold: Option<f64>,
+    /// How the surface is smoothed
+    #[arg(long, value_name = "NAME", value_parser = choice::<Filter>(), help_heading = "Surface")]
+    pub filter: Option<Named<Filter>>,
+    /// Smoothing length in particle radii
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Surface")]
+    pub strength: Option<f64>,
+    /// How often the filter is applied
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Surface")]
+    pub iterations: Option<u32>,
+    /// Largest half-width of the filter in pixels, which bounds the cost of a close-up
+    #[arg(long, value_name = "PX", allow_hyphen_values = true, help_heading = "Surface")]
+    pub filter_max_px: Option<u32>,
+    /// Narrow-range filter: depths within this many particle radii belong to the same surface
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
+    pub filter_range: Option<f64>,
+    /// Narrow-range filter: what lies behind the range counts as this many particle radii behind
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
+    pub filter_clamp: Option<f64>,
+    /// Neighbouring pixels farther apart than this many particle radii belong to different sheets
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
+    pub normal_step: Option<f64>,
+
+    /// Preset of the resolutions below; each can be overridden
+    #[arg(long, value_name = "NAME", value_parser = choice::<Quality>(), help_heading = "Quality")]
+    pub quality: Option<Named<Quality>>,
+    /// Pixels along one side of a texel of the thickness image
+    #[arg(long, value_name = "N", value_parser = choice::<Scale>(), help_heading = "Quality")]
+    pub thickness_scale: Option<Named<Scale>>,
+
+    /// What is behind the fluid
+    #[arg(long, value_name = "NAME", value_parser = choice::<Background>(), help_heading = "Look")]
+    pub background: Option<Named<Background>>,
+    /// Show the background where the fluid is thinner than this many particle radii
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Look")]
+    pub min_thickness: Option<f64>,
+    /// Multiplies the light before it is shown
+    #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
+    pub exposure: Option<f64>,
+    /// Index of refraction
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Look")]
+    pub refractive_index: Option<f64>,
+    /// Absorption of red, green and blue for each particle radius of depth, so that every scene looks right
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub absorption: Option<[f64; 3]>,
+    /// Absorption of red, green and blue for each world unit of depth, as a physical liquid has
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub absorption_per_world: Option<[f64; 3]>,
+    /// Linear colour of liquid so deep that nothing shines through
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub color: Option<[f64; 3]>,
+    /// How far the background is shifted, in units of the thickness
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Look")]
+    pub refraction: Option<f64>,
+    /// Strength of the sun's highlight
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Look")]
+    pub specular: Option<f64>,
+    /// Exponent of the sun's highlight; higher is smaller and sharper
+    #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
+    pub shininess: Option<f64>,
+
+    /// Write a buffer beside the picture, .exr or .npy; may be given several times
+    #[arg(long, value_name = "NAME=FILE", action = ArgAction::Append, help_heading = "More output")]
+    pub aov: Option<Vec<String>>,
+    /// Measure the GPU time of the last frame, as JSON on standard output or in a file
+    #[arg(long, value_name = "FILE.json", num_args = 0..=1, require_equals = true, default_missing_value = "-",
+          help_heading = "More output")]
+    pub timings: Option<String>,
+
+    /// What to render on: an index or a part of a name that `limpid adapters` lists
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub adapter: Option<String>,
+    /// Say nothing but errors and warnings
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true,
+          value_name = "BOOL")]
+    pub quiet: Option<bool>,
+}
+
+/// Options of which only one can hold: the first is the one that has a default.
+pub const ALTERNATIVES: [[&str; 2]; 2] = [["fov", "ortho"], ["absorption", "absorption-per-world"]];
+
+impl Options {
+    /// What holds where nothing is said.
+    pub fn defaults() -> Self {
+        Self {
+            size: Some(Size::default()),
+            fov: Some(FOV_DEGREES),
+            up: Some(Named(Axis::Y)),
+            quality: Some(Named(Quality::Standard)),
+            background: Some(Named(Background::default())),
+            exposure: Some(EXPOSURE),
+            quiet: Some(false),
+            ..Self::of_settings(&Settings::default())
+        }
+    }
+
+    /// What the choices of a layer (quality, filter) imply for other options.
+    pub fn implied(&self) -> Self {
+        let smoothing = self.filter.map(|filter| Self::of_smoothing(&Smoothing::of(filter.0))).unwrap_or_default();
+        let thickness_scale = self.quality.map(|quality| match quality.0 {
+            Quality::Draft => Scale::Quarter,
+            Quality::Standard => Settings::default().thickness_scale,
+            Quality::High => Scale::Full,
+        });
+        Self { thickness_scale: thickness_scale.map(Named), ..smoothing }
+    }
+
+    fn of_settings(settings: &Settings) -> Self {
+        let optics = &settings.optics;
+        let (absorption, absorption_per_world) = match optics.absorption {
+            Absorption::PerRadius(rgb) => (Some(rgb.map(widen)), None),
+            Absorption::PerWorld(rgb) => (None, Some(rgb.map(widen))),
+        };
+        Self {
+            splat_scale: Some(widen(settings.splat_scale)),
+            density_threshold: Some(widen(settings.density_threshold)),
+            thickness_scale: Some(Named(settings.thickness_scale)),
+            min_thickness: Some(widen(settings.min_thickness)),
+            normal_step: Some(widen(settings.normal_step)),
+            refractive_index: Some(widen(optics.refractive_index)),
+            absorption,
+            absorption_per_world,
+            color: Some(optics.color.map(widen)),
+            refraction: Some(widen(optics.refraction)),
+            specular: Some(widen(optics.specular)),
+            shininess: Some(widen(optics.shininess)),
+            ..Self::of_smoothing(&settings.smoothing)
+        }
+    }
+
+    fn of_smoothing(smoothing: &Smoothing) -> Self {
+        Self {
+            filter: Some(Named(smoothing.filter)),
+            strength: Some(widen(smoothing.strength)),
+            iterations: Some(smoothing.iterations),
+            filter_max_px: Some(smoothing.max_radius_px),
+            filter_range: Some(widen(smoothing.range)),
+            filter_clamp: Some(widen(smoothing.clamp)),
+            ..Self::default()
+        }
+    }
+
+    /// The look.
+    pub fn settings(&self) -> Settings {
+        let mut settings = Settings::default();
+        set(&mut settings.splat_scale, self.splat_scale);
+        set(&mut settings.density_threshold, self.density_threshold);
+        settings.thickness_scale = self.thickness_scale.map_or(settings.thickness_scale, |scale| scale.0);
+        set(&mut settings.min_thickness, self.min_thickness);
+        set(&mut settings.normal_step, self.normal_step);
+
+        let smoothing = &mut settings.smoothing;
+        smoothing.filter = self.filter.map_or(smoothing.filter, |filter| filter.0);
+        set(&mut smoothing.strength, self.strength);
+        smoothing.iterations = self.iterations.unwrap_or(smoothing.iterations);
+        smoothing.max_radius_px = self.filter_max_px.unwrap_or(smoothing.max_radius_px);
+        set(&mut smoothing.range, self.filter_range);
+        set(&mut smoothing.clamp, self.filter_clamp);
+
+        let optics = &mut settings.optics;
+        set(&mut optics.refractive_index, self.refractive_index);
+        if let Some(rgb) = self.absorption {
+            optics.absorption = Absorption::PerRadius(rgb.map(|v| v as f32));
+        }
+        if let Some(rgb) = self.absorption_per_world {
+            optics.absorption = Absorption::PerWorld(rgb.map(|v| v as f32));
+        }
+        optics.color = self.color.map_or(optics.color, |rgb| rgb.map(|v| v as f32));
+        set(&mut optics.refraction, self.refraction);
+        set(&mut optics.specular, self.specular);
+        set(&mut optics.shininess, self.shininess);
+        settings
+    }
+
+    /// What to render.
+    pub fn inputs(&self) -> Result<&[String], Failure> {
+        match self.input.as_deref() {
+            None | Some([]) => {
+                Err(Failure::usage("no input: give particle files, a folder or a pattern (see `limpid render --help`)"))
+            }
+            Some(inputs) => Ok(inputs),
+        }
+    }
+
+    /// Pixels across and down.
+    pub fn size(&self) -> [u32; 2] {
+        self.size.unwrap_or_default().0
+    }
+
+    /// Vertical field of view in radians.
+    pub fn fov_y(&self) -> f64 {
+        self.fov.unwrap_or(FOV_DEGREES).to_radians()
+    }
+
+    /// The data's up axis.
+    pub fn data_up(&self) -> DVec3 {
+        match self.up {
+            Some(Named(Axis::X)) => DVec3::X,
+            Some(Named(Axis::Z)) => DVec3::Z,
+            Some(Named(Axis::Y)) | None => DVec3::Y,
+        }
+    }
+
+    /// What is behind the fluid.
+    pub fn background(&self) -> Background {
+        self.background.map_or(Background::default(), |background| background.0)
+    }
+
+    /// Factor of the light.
+    pub fn exposure(&self) -> f32 {
+        self.exposure.unwrap_or(EXPOSURE) as f32
+    }
+
+    /// Whether to say nothing but errors and warnings.
+    pub fn quiet(&self) -> bool {
+        self.quiet.unwrap_or(false)
+    }
+}
+
+fn set(setting: &mut f32, option: Option<f64>) {
+    if let Some(value) = option {
+        *setting = value as f32;
+    }
+}
+
+/// The f64 with the fewest digits that stands for the same f32: 1.333, not 1.3329999446868896.
+fn widen(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}
+
+/// Three numbers between commas.
+fn triple(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    let numbers = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+    numbers.ok_or_else(|| "must be three numbers between commas, like 1,2.5,-3".into())
+}

@@ -1,0 +1,45 @@
+//! Files that are there whole or not at all.
+
+mod atomic;
+mod exr;
+mod npy;
+mod png;
+
+pub use atomic::{check_writable, write_atomically};
+
+use crate::failure::Failure;
+use limpid_headless::{Aov, Image, Picture};
+use std::path::Path;
+
+/// Formats of numeric images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AovFormat {
+    /// OpenEXR.
+    Exr,
+    /// NumPy.
+    Npy,
+}
+
+impl AovFormat {
+    /// The format that a file name asks for.
+    pub fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "exr" => Some(Self::Exr),
+            "npy" => Some(Self::Npy),
+            _ => None,
+        }
+    }
+}
+
+/// Writes a picture as PNG.
+pub fn write_picture(path: &Path, picture: &Picture, opaque: bool) -> Result<(), Failure> {
+    write_atomically(path, |file| png::write(file, picture, opaque))
+}
+
+/// Writes one buffer.
+pub fn write_aov(path: &Path, format: AovFormat, aov: Aov, image: &Image) -> Result<(), Failure> {
+    write_atomically(path, |file| match format {
+        AovFormat::Exr => exr::write(file, aov, image),
+        AovFormat::Npy => npy::write(file, image),
+    })
+}
