@@ -140,7 +140,7 @@ fn one_byte_changed() {
     let folder = Folder::new("mutated");
     let mut random = Random(1);
     for (name, bytes) in samples() {
-        for _ in 0..4000 {
+        for _ in 0..2000 {
             let mut changed = bytes.clone();
             let at = (random.next() % bytes.len() as u64) as usize;
             changed[at] = random.next() as u8;

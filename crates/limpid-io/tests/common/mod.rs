@@ -22,6 +22,8 @@ impl Folder {
 
     pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
+        // Some file systems write a file through to the disk when it replaces its own contents.
+        let _ = fs::remove_file(&path);
         fs::write(&path, contents).unwrap();
         path
     }
