@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{Fault, ReadError, broken, quote};
 use crate::input::Input;
 use crate::raw::Raw;
-use crate::{bgeo, json, ply, pos, table, vtk};
+use crate::{bgeo, json, npy, ply, pos, table, vtk};
 
 /// A particle file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,14 +26,17 @@ pub enum Format {
     Xyz,
     /// An array of positions, or an object of arrays.
     Json,
+    /// A NumPy array of positions.
+    Npy,
 }
 
 impl Format {
     /// All names, for a message.
-    pub(crate) const NAMES: &str = ".vtk, .bgeo, .pos, .ply, .csv, .xyz or .json";
+    pub(crate) const NAMES: &str = ".vtk, .bgeo, .pos, .ply, .csv, .xyz, .json or .npy";
 
     /// All formats.
-    pub const ALL: [Self; 7] = [Self::Vtk, Self::Bgeo, Self::Pos, Self::Ply, Self::Csv, Self::Xyz, Self::Json];
+    pub const ALL: [Self; 8] =
+        [Self::Vtk, Self::Bgeo, Self::Pos, Self::Ply, Self::Csv, Self::Xyz, Self::Json, Self::Npy];
 
     /// The canonical name, which is also the usual file name extension.
     pub fn name(self) -> &'static str {
@@ -45,6 +48,7 @@ impl Format {
             Self::Csv => "csv",
             Self::Xyz => "xyz",
             Self::Json => "json",
+            Self::Npy => "npy",
         }
     }
 
@@ -90,6 +94,8 @@ impl Format {
             Some(Self::Vtk)
         } else if head.starts_with(bgeo::MAGIC) {
             Some(Self::Bgeo)
+        } else if head.starts_with(npy::MAGIC) {
+            Some(Self::Npy)
         } else if head.strip_prefix(ply::MAGIC).is_some_and(|rest| rest.starts_with(b"\n") || rest.starts_with(b"\r")) {
             Some(Self::Ply)
         } else {
@@ -105,6 +111,7 @@ impl Format {
             Self::Ply => ply::read(input),
             Self::Csv | Self::Xyz => table::read(input),
             Self::Json => json::read(input),
+            Self::Npy => npy::read(input),
         }
     }
 }
@@ -132,8 +139,7 @@ fn unsupported(head: &[u8], path: &Path) -> Option<(&'static str, &'static str)>
         (b"#usda", "a USD file", BLENDER),
         (b"<?xml", "an XML file (such as VTK's .vtu and .vtp)", PARAVIEW),
         (b"<VTKFile", "a VTK XML file", PARAVIEW),
-        (b"\x93NUMPY", "a NumPy array", "write it as .ply or .vtk with meshio"),
-        (b"PK\x03\x04", "a zip archive (such as .npz and .usdz)", "unpack it, or write .ply or .vtk"),
+        (b"PK\x03\x04", "a zip archive (such as .npz and .usdz)", "write .npy, .ply or .vtk"),
         (b"\xda\xba\xfa\x00", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
         (b"\xda\xba\xda\xfa", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
     ];

@@ -10,6 +10,7 @@ mod format;
 mod input;
 mod json;
 mod names;
+mod npy;
 mod particles;
 mod ply;
 mod pos;

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, bgeo, bgeo_attribute, gzip, pos};
+use common::{Folder, bgeo, bgeo_attribute, gzip, npy, pos};
 use limpid_io::{Attribute, ParticleSet, ReadError, Values};
 
 fn attribute<'a>(set: &'a ParticleSet, name: &str) -> &'a Attribute {
@@ -212,6 +212,25 @@ fn json_of_positions_or_named_arrays() {
     for broken in ["{", "[[1,2]]", "[[1,2,3],", "{\"bodies\": []}", "hello", "[] []", &deep] {
         let error = folder.read("broken.json", broken).unwrap_err();
         assert!(matches!(error, ReadError::Broken { .. }), "{error}");
+    }
+}
+
+#[test]
+fn npy_of_any_type_and_order() {
+    let folder = Folder::new("npy");
+    let rows = [1.0_f32, 2.0, 3.0, 4.0, 5.0, 6.0];
+    let columns = [1.0_f64, 4.0, 2.0, 5.0, 3.0, 6.0];
+    let files = [
+        npy("<f4", false, 2, &rows.map(f32::to_le_bytes).concat()),
+        npy(">f8", true, 2, &columns.map(f64::to_be_bytes).concat()),
+        npy("|u1", false, 2, &[1, 2, 3, 4, 5, 6]),
+    ];
+    for bytes in files {
+        let set = folder.read("points.npy", bytes).unwrap();
+        assert_eq!(set.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    }
+    for broken in [npy("<c8", false, 0, &[]), npy("<f4", false, usize::MAX, &[0; 12]), npy("<f4", false, 0, &[0])] {
+        assert!(matches!(folder.read("broken.npy", broken), Err(ReadError::Broken { .. })));
     }
 }
 

@@ -8,7 +8,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Folder, Random, bgeo, bgeo_attribute, gzip, pos};
+use common::{Folder, Random, bgeo, bgeo_attribute, gzip, npy, pos};
 use limpid_io::{ParticleSet, ReadError, read};
 
 /// Remembers the largest single allocation.
@@ -102,6 +102,10 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
         ("little.ply", little),
         ("ascii.ply", text.into_bytes()),
         ("small.pos", pos(0.1, &POINTS)),
+        (
+            "small.npy",
+            npy("<f4", false, 3, &POINTS.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>()),
+        ),
         ("small.csv", b"x,y,z,id\n1,2,3,4\n5,6,7,8\n-1,-2,-3e-1,2".to_vec()),
         ("small.xyz", b"3\nProperties=species:S:1:pos:R:3:v:R:3\nO 1 2 3 1 2 3\nO 2 2 3 1 2 3\nO 3 2 3 1 2 3".to_vec()),
         ("array.json", b"[[1, 2.5e0, 3], [4, 5, 6], [-7, 8, 9]]".to_vec()),
@@ -233,7 +237,7 @@ fn contents_decide_before_the_name() {
     let _turn = TURN.lock();
     let folder = Folder::new("names");
     for (name, bytes) in samples() {
-        let has_mark = [".vtk", ".bgeo", ".ply", ".pos"].iter().any(|end| name.ends_with(end));
+        let has_mark = [".vtk", ".bgeo", ".ply", ".pos", ".npy"].iter().any(|end| name.ends_with(end));
         let wrong = if has_mark { format!("{name}.csv") } else { name.into() };
         assert_eq!(folder.read(&wrong, &bytes).unwrap().len(), 3, "{wrong}");
     }
