@@ -1,9 +1,10 @@
 //! Finding an adapter and opening a device.
 
 use crate::Error;
+use pollster::block_on;
 
 /// One way to run on this machine.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterInfo {
     /// The driver's name of the device.
     pub name: String,
@@ -13,6 +14,24 @@ pub struct AdapterInfo {
     pub backend: String,
     /// Driver name and version.
     pub driver: String,
+}
+
+impl AdapterInfo {
+    fn new(info: &wgpu::AdapterInfo) -> Self {
+        let kind = match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => "discrete gpu",
+            wgpu::DeviceType::IntegratedGpu => "integrated gpu",
+            wgpu::DeviceType::VirtualGpu => "virtual gpu",
+            wgpu::DeviceType::Cpu => "cpu",
+            wgpu::DeviceType::Other => "other",
+        };
+        Self {
+            name: info.name.clone(),
+            kind,
+            backend: info.backend.to_string(),
+            driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        }
+    }
 }
 
 /// An open device.
@@ -25,15 +44,74 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
 }
 
-/// All adapters, the one that would be picked first: real GPUs before CPUs, Vulkan before GL.
+/// All adapters that can run limpid, the one that would be picked first: real GPUs before CPUs.
 pub fn adapters() -> Vec<AdapterInfo> {
-    todo!()
+    ranked().iter().map(|adapter| AdapterInfo::new(&adapter.get_info())).collect()
+}
+
+fn ranked() -> Vec<wgpu::Adapter> {
+    // GL only where there is nothing better: merely asking for it makes some drivers print to stderr.
+    let primary = adapters_of(wgpu::Backends::PRIMARY);
+    if primary.is_empty() { adapters_of(wgpu::Backends::SECONDARY) } else { primary }
+}
+
+fn adapters_of(backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let mut adapters = block_on(instance.enumerate_adapters(backends));
+    adapters.retain(|adapter| wgpu::Limits::default().check_limits(&adapter.limits()));
+    let rank = |info: &wgpu::AdapterInfo| match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Cpu => 3,
+        wgpu::DeviceType::Other => 4,
+    };
+    adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
+    adapters
 }
 
 impl Gpu {
     /// Opens the adapter that `wanted` names (an index into [`adapters`] or a part of a name, case aside), or the best.
+    ///
+    /// # Errors
+    /// No adapter, none of that name, or a device that the driver refuses.
     pub fn open(wanted: Option<&str>) -> Result<Self, Error> {
-        let _ = wanted;
-        todo!()
+        let adapters = ranked();
+        if adapters.is_empty() {
+            return Err(Error::NoAdapter);
+        }
+        let Some(adapter) = pick(&adapters, wanted) else {
+            let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+            return Err(Error::UnknownAdapter {
+                wanted: wanted.unwrap_or_default().to_owned(),
+                available: names.join(", "),
+            });
+        };
+        let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("limpid"),
+            // What the library needs are the default limits; larger buffers and images are welcome where they exist.
+            required_limits: wgpu::Limits {
+                max_buffer_size: adapter.limits().max_buffer_size,
+                max_storage_buffer_binding_size: adapter.limits().max_storage_buffer_binding_size,
+                max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
+                ..wgpu::Limits::default()
+            },
+            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            ..Default::default()
+        }))
+        .map_err(|error| Error::Device(error.to_string()))?;
+        Ok(Self { info: AdapterInfo::new(&adapter.get_info()), device, queue })
     }
+}
+
+fn pick<'a>(adapters: &'a [wgpu::Adapter], wanted: Option<&str>) -> Option<&'a wgpu::Adapter> {
+    let Some(wanted) = wanted else { return adapters.first() };
+    if let Ok(index) = wanted.parse::<usize>() {
+        return adapters.get(index);
+    }
+    let named = |adapter: &&wgpu::Adapter| adapter.get_info().name.to_lowercase().contains(&wanted.to_lowercase());
+    adapters.iter().find(named)
 }

@@ -1,16 +1,24 @@
 //! limpid without a window: adapters, off-screen frames, buffers read back.
 
+mod aov;
 mod gpu;
 mod offscreen;
+mod readback;
+mod shot;
 
+pub use aov::{Aov, Image};
 pub use gpu::{AdapterInfo, Gpu, adapters};
-pub use offscreen::{Aov, Background, Image, Offscreen, PassTime, Picture, Shot, Timings};
+pub use limpid::PassTime;
+pub use offscreen::Offscreen;
+pub use shot::{Background, Picture, Shot, Timings};
 
 /// What can go wrong without a window. Every message is one line that says what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// No graphics adapter at all.
-    #[error("no graphics adapter was found: install a Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers, which also runs without a GPU)")]
+    #[error(
+        "no graphics adapter was found: install a Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers, which also runs without a GPU)"
+    )]
     NoAdapter,
     /// An adapter that is not there.
     #[error("no adapter matches \"{wanted}\"; there are: {available} (see `limpid adapters`)")]
@@ -23,6 +31,18 @@ pub enum Error {
     /// The driver refused or lost the device.
     #[error("the graphics device failed: {0}; try another with --adapter (see `limpid adapters`)")]
     Device(String),
+    /// A picture that no image of the device can hold.
+    #[error(
+        "a picture of {width} x {height} pixels is not possible: this device allows 1 to {limit} each way; choose another --size"
+    )]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Most pixels each way.
+        limit: u32,
+    },
     /// A frame that cannot be drawn.
     #[error(transparent)]
     Frame(#[from] limpid::Error),

@@ -1,131 +1,89 @@
 //! A whole picture, off screen: the scene, the fluid in it, the display transform, everything read back.
 
-use crate::{Error, Gpu};
-use limpid::{Environment, ParticleSlices, Settings, View};
+use crate::readback::read_words;
+use crate::{Aov, Background, Error, Gpu, Picture, Shot, Timings};
+use limpid::{Backdrop, Display, Frame, Particles, PassTime, Profiler, Renderer, Scene, TargetFormat};
+use std::time::Instant;
 
-/// What is behind the fluid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Background {
-    /// The built-in floor, sky and sun.
-    #[default]
-    Scene,
-    /// Pure white.
-    White,
-    /// Pure black.
-    Black,
-    /// Nothing: the picture has alpha = 1 - mean transmittance.
-    Transparent,
-}
+/// Linear light: the scene, then the fluid over it.
+const LINEAR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
-/// A buffer that can be read back beside the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Aov {
-    /// Positive view depth after the splat, +infinity where there is no fluid.
-    RawDepth,
-    /// Positive view depth after the filter, +infinity where there is no fluid.
-    Depth,
-    /// Depth of liquid along the ray, world units.
-    Thickness,
-    /// View-space unit normal.
-    Normal,
-    /// Light that the fluid lets through, per colour.
-    Transmittance,
-    /// Linear premultiplied RGBA of the fluid before tone mapping.
-    Color,
-}
-
-impl Aov {
-    /// Every one there is.
-    pub const ALL: [Self; 6] = [Self::RawDepth, Self::Depth, Self::Thickness, Self::Normal, Self::Transmittance, Self::Color];
-
-    /// Its name on the command line: "raw-depth", "depth", ...
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RawDepth => "raw-depth",
-            Self::Depth => "depth",
-            Self::Thickness => "thickness",
-            Self::Normal => "normal",
-            Self::Transmittance => "transmittance",
-            Self::Color => "color",
-        }
-    }
-
-    /// Values per pixel.
-    pub fn channels(self) -> usize {
-        match self {
-            Self::RawDepth | Self::Depth | Self::Thickness => 1,
-            Self::Normal | Self::Transmittance => 3,
-            Self::Color => 4,
-        }
-    }
-}
-
-/// Rows of float32 pixels, row 0 at the top, channels interleaved.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Image {
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// Values per pixel.
-    pub channels: usize,
-    /// size[0] * size[1] * channels values.
-    pub values: Vec<f32>,
-}
-
-/// One picture to make.
-#[derive(Clone, Copy, Debug)]
-pub struct Shot<'a> {
-    /// The fluid.
-    pub particles: ParticleSlices<'a>,
-    /// The camera.
-    pub view: View,
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// The look.
-    pub settings: Settings,
-    /// What surrounds the fluid (reflected in it whatever the background is).
-    pub environment: Environment,
-    /// What is behind it.
-    pub background: Background,
-}
-
-/// A finished picture.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// sRGB, straight alpha, row 0 at the top, 4 bytes a pixel.
-    pub rgba: Vec<u8>,
-    /// The buffers asked for, in that order.
-    pub aovs: Vec<Image>,
-}
-
-/// GPU time of one pass.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PassTime {
-    /// Name by the command line's contract: "splat-depth", "smooth/narrow-range-x", ...
-    pub name: String,
-    /// Milliseconds.
-    pub ms: f64,
-}
-
-/// GPU time of a frame without readback.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Timings {
-    /// Milliseconds of each counted frame.
-    pub frame_ms: Vec<f64>,
-    /// Median of each pass over the counted frames, in the order they run.
-    pub passes: Vec<PassTime>,
-}
-
-/// Renders shots on one device, reusing its buffers from shot to shot.
+/// Renders shots on one device, reusing its pipelines and buffers from shot to shot.
 pub struct Offscreen {
     gpu: Gpu,
+    renderer: Renderer,
+    backdrop: Backdrop,
+    display: Display,
+    images: Option<Images>,
+}
+
+/// The textures of one size (handles, cheap to clone).
+#[derive(Clone)]
+struct Images {
+    size: [u32; 2],
+    /// The scene alone, as seen through the fluid.
+    scene: wgpu::Texture,
+    depth: wgpu::Texture,
+    /// Scene and fluid.
+    picture: wgpu::Texture,
+    shown: wgpu::Texture,
+}
+
+impl Images {
+    fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        use wgpu::TextureUsages as Usage;
+        let texture = |label, format, usage| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: usage | Usage::RENDER_ATTACHMENT,
+                view_formats: &[],
+            })
+        };
+        Self {
+            size,
+            scene: texture("scene", LINEAR, Usage::TEXTURE_BINDING | Usage::COPY_SRC),
+            depth: texture("scene depth", DEPTH, Usage::TEXTURE_BINDING),
+            picture: texture("picture", LINEAR, Usage::TEXTURE_BINDING | Usage::COPY_DST),
+            shown: texture("shown", SHOWN, Usage::COPY_SRC),
+        }
+    }
+}
+
+fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&Default::default())
+}
+
+fn attachment<'a>(view: &'a wgpu::TextureView, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'a> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+    }
 }
 
 impl Offscreen {
     /// Builds all pipelines.
+    ///
+    /// # Errors
+    /// The driver refuses a pipeline.
     pub fn new(gpu: Gpu) -> Result<Self, Error> {
-        Ok(Self { gpu })
+        let target = TargetFormat { color: LINEAR, depth: Some((DEPTH, wgpu::CompareFunction::Greater)), samples: 1 };
+        let guard = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let renderer = Renderer::new(&gpu.device, &target);
+        let backdrop = Backdrop::new(&gpu.device, &target);
+        let display = Display::new(&gpu.device, SHOWN);
+        match pollster::block_on(guard.pop()) {
+            Some(error) => Err(Error::Device(error.to_string())),
+            None => Ok(Self { gpu, renderer, backdrop, display, images: None }),
+        }
     }
 
     /// What it runs on.
@@ -134,15 +92,200 @@ impl Offscreen {
     }
 
     /// Renders one picture and reads it back with the buffers asked for.
+    ///
+    /// # Errors
+    /// A shot that cannot be drawn, or a device that fails or is lost.
     pub fn render(&mut self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
-        let _ = (shot, aovs);
-        todo!()
+        let particles = self.upload(shot)?;
+        self.submit(shot, &particles)?;
+        self.read(shot, aovs)
     }
 
-    /// Renders the shot `runs` times (after a warm-up) and reports the GPU time, from timestamps where the adapter has
-    /// them, else by the clock from submission to completion (then without passes).
+    /// Renders the shot `runs` times after a warm-up and reports the GPU's time, without reading anything back.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
     pub fn time(&mut self, shot: &Shot<'_>, runs: usize) -> Result<Timings, Error> {
-        let _ = (shot, runs);
-        todo!()
+        let mut upload_ms = Vec::new();
+        let mut frame_ms = Vec::new();
+        let mut passes: Vec<Vec<PassTime>> = Vec::new();
+        for run in 0..=runs.max(1) {
+            let begin = Instant::now();
+            let particles = self.upload(shot)?;
+            self.gpu.queue.submit([]);
+            self.wait()?;
+            let uploaded = Instant::now();
+            self.renderer.set_profiler(Profiler::new(&self.gpu.device, &self.gpu.queue));
+            self.submit(shot, &particles)?;
+            self.wait()?;
+            let done = Instant::now();
+            let profiler = self.renderer.set_profiler(None);
+            if run > 0 {
+                upload_ms.push((uploaded - begin).as_secs_f64() * 1e3);
+                frame_ms.push((done - uploaded).as_secs_f64() * 1e3);
+                passes.extend(profiler.map(|mut profiler| profiler.read(&self.gpu.device).1));
+            }
+        }
+        let mut medians = vec![PassTime { name: "upload".into(), ms: median(upload_ms) }];
+        if let Some(first) = passes.first() {
+            for pass in first {
+                let times = passes.iter().flatten().filter(|p| p.name == pass.name).map(|p| p.ms).collect();
+                medians.push(PassTime { name: pass.name.clone(), ms: median(times) });
+            }
+        }
+        Ok(Timings { frame_ms, passes: medians })
     }
+
+    fn upload(&self, shot: &Shot<'_>) -> Result<Particles, Error> {
+        Ok(Particles::upload(&self.gpu.device, &self.gpu.queue, &shot.particles)?)
+    }
+
+    /// Draws everything up to `images.shown`.
+    fn submit(&mut self, shot: &Shot<'_>, particles: &Particles) -> Result<(), Error> {
+        // Handles, cheap to clone.
+        let (device, queue) = &(self.gpu.device.clone(), self.gpu.queue.clone());
+        let limit = device.limits().max_texture_dimension_2d;
+        let [width, height] = shot.size;
+        if width == 0 || height == 0 || width.max(height) > limit {
+            return Err(Error::Size { width, height, limit });
+        }
+        let guard = (
+            device.push_error_scope(wgpu::ErrorFilter::OutOfMemory),
+            device.push_error_scope(wgpu::ErrorFilter::Validation),
+        );
+        // The old ones go first: they may not fit beside the new.
+        let images = self.images.take().filter(|images| images.size == shot.size);
+        let images = images.unwrap_or_else(|| Images::new(device, shot.size));
+        self.images = Some(images.clone());
+        let (scene, depth, picture) = (view_of(&images.scene), view_of(&images.depth), view_of(&images.picture));
+        let mut encoder = device.create_command_encoder(&Default::default());
+
+        self.draw_scene(&mut encoder, shot, &scene, &depth);
+        encoder.copy_texture_to_texture(
+            images.scene.as_image_copy(),
+            images.picture.as_image_copy(),
+            images.scene.size(),
+        );
+        let transparent = shot.background == Background::Transparent;
+        let frame = Frame {
+            particles,
+            view: &shot.view,
+            size: shot.size,
+            settings: &shot.settings,
+            environment: &shot.environment,
+            scene: Scene {
+                color: (!transparent).then_some(&scene),
+                depth: (shot.background == Background::Scene).then_some(&depth),
+            },
+        };
+        let prepared = self.renderer.prepare(device, queue, &mut encoder, &frame);
+        if prepared.is_ok() {
+            self.draw_fluid(&mut encoder, &picture, &depth);
+            self.draw_display(&mut encoder, shot, &picture, &view_of(&images.shown));
+            if let Some(profiler) = self.renderer.profiler() {
+                profiler.resolve(&mut encoder);
+            }
+            queue.submit([encoder.finish()]);
+        }
+        let (memory, validation) = guard;
+        for error in [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())].into_iter().flatten() {
+            return Err(Error::Device(one_line(&error.to_string())));
+        }
+        Ok(prepared?)
+    }
+
+    fn draw_scene(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        shot: &Shot<'_>,
+        color: &wgpu::TextureView,
+        depth: &wgpu::TextureView,
+    ) {
+        let clear = match shot.background {
+            Background::White => wgpu::Color::WHITE,
+            Background::Black | Background::Scene => wgpu::Color::BLACK,
+            Background::Transparent => wgpu::Color::TRANSPARENT,
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("scene"),
+            color_attachments: &[Some(attachment(color, wgpu::LoadOp::Clear(clear)))],
+            depth_stencil_attachment: Some(depth_attachment(depth, wgpu::LoadOp::Clear(0.0))),
+            timestamp_writes: self.renderer.profiler().and_then(|profiler| profiler.render("scene")),
+            ..Default::default()
+        });
+        if shot.background == Background::Scene {
+            self.backdrop.draw(&self.gpu.queue, &mut pass, &shot.view, shot.size, &shot.environment);
+        }
+    }
+
+    fn draw_fluid(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        picture: &wgpu::TextureView,
+        depth: &wgpu::TextureView,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("composite"),
+            color_attachments: &[Some(attachment(picture, wgpu::LoadOp::Load))],
+            depth_stencil_attachment: Some(depth_attachment(depth, wgpu::LoadOp::Load)),
+            timestamp_writes: self.renderer.profiler().and_then(|profiler| profiler.render("shade")),
+            ..Default::default()
+        });
+        self.renderer.composite(&mut pass);
+    }
+
+    fn draw_display(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        shot: &Shot<'_>,
+        picture: &wgpu::TextureView,
+        shown: &wgpu::TextureView,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("display"),
+            color_attachments: &[Some(attachment(shown, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))],
+            timestamp_writes: self.renderer.profiler().and_then(|profiler| profiler.render("display")),
+            ..Default::default()
+        });
+        let Gpu { device, queue, .. } = &self.gpu;
+        self.display.draw(device, queue, &mut pass, picture, shot.exposure, shot.background.tone_map());
+    }
+
+    fn read(&self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        let (Some(images), Some(buffers)) = (&self.images, self.renderer.buffers()) else {
+            unreachable!("a frame was submitted")
+        };
+        let rgba = crate::readback::read_texture(device, queue, &images.shown)?;
+        let pixels = shot.size[0] as usize * shot.size[1] as usize;
+        let words = |buffer, per_pixel| read_words(device, queue, buffer, pixels * per_pixel);
+        let nearness = if aovs.is_empty() { Vec::new() } else { words(buffers.nearness, 1)? };
+        let image = |aov: &Aov| {
+            let (buffer, per_pixel) = aov.source(&buffers);
+            Ok(aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view))
+        };
+        Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().map(image).collect::<Result<_, Error>>()? })
+    }
+
+    fn wait(&self) -> Result<(), Error> {
+        crate::readback::wait(&self.gpu.device)
+    }
+}
+
+fn depth_attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<f32>) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
+    }
+}
+
+/// The middle value; 0 of none.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

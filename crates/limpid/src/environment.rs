@@ -1,7 +1,8 @@
 //! The surroundings that light the fluid: a procedural floor, sky and sun that flatter water with no input at all.
 
+use crate::View;
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 /// Procedural surroundings, in world space. Colours are linear; 1 is a white wall in the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,20 +32,17 @@ impl Environment {
         Self { up, sun, floor: Some(floor), tile: extent / 12.0, center }
     }
 
-    /// `environment.wgsl`'s `Environment`, in the space of the particles that start at `origin`.
-    pub(crate) fn uniform(&self, world_from_view: &DMat4, origin: DVec3) -> EnvironmentUniform {
-        let eye = world_from_view.transform_point3(DVec3::ZERO);
-        let east = self.up.any_orthonormal_vector();
-        let relative_eye = eye - self.center;
-        let _ = origin;
+    /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
+    pub(crate) fn uniform(&self, view: &View) -> EnvironmentUniform {
+        let eye = view.eye();
         EnvironmentUniform {
             up: self.up.as_vec3(),
-            eye_height: self.floor.map_or(0.0, |floor| eye.dot(self.up) - floor) as f32,
+            eye_height: self.floor.map_or(f64::from(f32::MIN), |floor| eye.dot(self.up) - floor) as f32,
             sun: self.sun.as_vec3(),
             tile: self.tile as f32,
-            east: east.as_vec3(),
-            has_floor: u32::from(self.floor.is_some()),
-            eye_from_center: relative_eye.as_vec3(),
+            east: self.up.any_orthonormal_vector().as_vec3(),
+            tile_fade: 0.0007,
+            eye_from_center: (eye - self.center).as_vec3(),
             padding: 0.0,
         }
     }
@@ -59,7 +57,7 @@ pub(crate) struct EnvironmentUniform {
     pub sun: Vec3,
     pub tile: f32,
     pub east: Vec3,
-    pub has_floor: u32,
+    pub tile_fade: f32,
     pub eye_from_center: Vec3,
     pub padding: f32,
 }

@@ -14,7 +14,9 @@ pub enum Error {
         range: &'static str,
     },
     /// A picture without pixels, or with more than the device can hold.
-    #[error("a picture of {width} x {height} pixels needs buffers of {needed} bytes, but this device allows 1 to {limit}: choose another size")]
+    #[error(
+        "a picture of {width} x {height} pixels needs buffers of {needed} bytes, but this device allows 1 to {limit}: choose another size"
+    )]
     Size {
         /// Pixels across.
         width: u32,

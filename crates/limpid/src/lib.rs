@@ -3,16 +3,26 @@
 //! The library draws into a frame of the host's: it never creates a device, never submits, opens no file and no window.
 //! A frame is [`Renderer::prepare`] (all compute passes) and [`Renderer::composite`] (one triangle, colour and depth).
 
+mod backdrop;
+mod display;
 mod environment;
 mod error;
 mod framing;
+mod gpu;
 mod particles;
+mod passes;
+mod renderer;
 mod settings;
+mod targets;
 mod view;
 
+pub use backdrop::Backdrop;
+pub use display::{Display, ToneMap};
 pub use environment::Environment;
 pub use error::Error;
 pub use framing::{Bounds, Framing};
-pub use particles::{ParticleSlices, Radius};
+pub use gpu::{PassTime, Profiler};
+pub use particles::{ParticleSlices, Particles, Radius};
+pub use renderer::{Frame, FrameBuffers, Renderer, Scene, TargetFormat};
 pub use settings::{Absorption, Filter, Optics, Scale, Settings, Smoothing};
 pub use view::View;

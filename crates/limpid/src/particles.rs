@@ -67,3 +67,74 @@ impl ParticleSlices<'_> {
         }
     }
 }
+
+/// Particles in GPU buffers, in as many chunks as the device's binding limit asks for: order does not matter to a splat.
+pub struct Particles {
+    pub(crate) chunks: Vec<Chunk>,
+    pub(crate) origin: DVec3,
+    pub(crate) reference_radius: f32,
+    has_density: bool,
+}
+
+/// Particles that one dispatch can bind.
+pub(crate) struct Chunk {
+    pub count: u64,
+    /// vec4: local position, radius.
+    pub positions: wgpu::Buffer,
+    /// f32, or a single unused one.
+    pub densities: wgpu::Buffer,
+}
+
+impl Particles {
+    /// Copies particles to the device: 16 bytes each, 20 with density.
+    ///
+    /// # Errors
+    /// Arrays of different lengths, positions that are not finite, radii that are not positive.
+    pub fn upload(device: &wgpu::Device, queue: &wgpu::Queue, slices: &ParticleSlices<'_>) -> Result<Self, Error> {
+        slices.check()?;
+        let limits = device.limits();
+        let most_bytes = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(1 << 30);
+        let chunk_len = (most_bytes / 16) as usize;
+        let chunks = slices.positions.chunks(chunk_len).enumerate().map(|(i, positions)| {
+            let first = i * chunk_len;
+            let radius = |k: usize| match slices.radius {
+                Radius::Uniform(radius) => radius,
+                Radius::Each(radii) => radii[first + k],
+            };
+            let packed: Vec<[f32; 4]> =
+                positions.iter().enumerate().map(|(k, p)| [p[0], p[1], p[2], radius(k)]).collect();
+            let densities = slices.density.map_or(&[0.0][..], |d| &d[first..first + positions.len()]);
+            Chunk {
+                count: positions.len() as u64,
+                positions: filled_buffer(device, queue, "particles", bytemuck::cast_slice(&packed)),
+                densities: filled_buffer(device, queue, "densities", bytemuck::cast_slice(densities)),
+            }
+        });
+        Ok(Self {
+            chunks: chunks.collect(),
+            origin: slices.origin,
+            reference_radius: slices.reference_radius(),
+            has_density: slices.density.is_some(),
+        })
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> u64 {
+        self.chunks.iter().map(|chunk| chunk.count).sum()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.chunks.is_empty()
+    }
+
+    pub(crate) fn has_density(&self) -> bool {
+        self.has_density
+    }
+}
+
+fn filled_buffer(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, bytes: &[u8]) -> wgpu::Buffer {
+    let buffer = crate::gpu::storage_buffer(device, label, bytes.len() as u64);
+    queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}

@@ -1,6 +1,8 @@
 //! Every knob of the fluid's look. Lengths are in particle radii (r) unless a name says otherwise, so that a scene in
 //! millimetres looks like the same scene in metres.
 
+use crate::Error;
+
 /// How the fluid is drawn. `Settings::default()` looks good untouched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -142,4 +144,44 @@ pub enum Absorption {
     PerRadius([f32; 3]),
     /// Per world unit of depth: a physical liquid.
     PerWorld([f32; 3]),
+}
+
+impl Settings {
+    /// Refuses values outside their documented ranges.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for the first such value.
+    pub fn check(&self) -> Result<(), Error> {
+        let Self { smoothing, optics, .. } = self;
+        within("splat scale", self.splat_scale, 0.5..=4.0, "from 0.5 to 4")?;
+        within("density threshold", self.density_threshold, 0.0..=f32::MAX, "0 or more")?;
+        within("min thickness", self.min_thickness, 0.0..=f32::MAX, "0 or more")?;
+        within("normal step", self.normal_step, 0.01..=1000.0, "from 0.01 to 1000")?;
+        within("strength", smoothing.strength, 0.0..=20.0, "from 0 to 20")?;
+        within("iterations", smoothing.iterations as f32, 1.0..=100.0, "from 1 to 100")?;
+        within("max radius", smoothing.max_radius_px as f32, 1.0..=256.0, "from 1 to 256")?;
+        within("range", smoothing.range, 0.01..=1000.0, "from 0.01 to 1000")?;
+        within("clamp", smoothing.clamp, 0.0..=1000.0, "from 0 to 1000")?;
+        within("refractive index", optics.refractive_index, 1.0..=3.0, "from 1 to 3")?;
+        let (Absorption::PerRadius(absorption) | Absorption::PerWorld(absorption)) = optics.absorption;
+        for value in absorption {
+            within("absorption", value, 0.0..=f32::MAX, "0 or more")?;
+        }
+        for value in optics.color {
+            within("color", value, 0.0..=1000.0, "from 0 to 1000")?;
+        }
+        within("refraction", optics.refraction, 0.0..=4.0, "from 0 to 4")?;
+        within("specular", optics.specular, 0.0..=4.0, "from 0 to 4")?;
+        within("shininess", optics.shininess, 1.0..=4096.0, "from 1 to 4096")
+    }
+}
+
+/// NaN is within nothing.
+fn within(
+    name: &'static str,
+    value: f32,
+    range: std::ops::RangeInclusive<f32>,
+    text: &'static str,
+) -> Result<(), Error> {
+    if range.contains(&value) { Ok(()) } else { Err(Error::Setting { name, value: value.into(), range: text }) }
 }

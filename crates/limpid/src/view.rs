@@ -52,10 +52,23 @@ impl View {
         self.view_from_world.inverse().transform_point3(DVec3::ZERO)
     }
 
+    /// View depth of a nearness (see [`crate::FrameBuffers`]); +infinity for 0, where there is no fluid.
+    pub fn depth_of(&self, nearness: f32) -> f32 {
+        if nearness <= 0.0 {
+            f32::INFINITY
+        } else if self.is_perspective() {
+            1.0 / nearness
+        } else {
+            (1.0 - nearness) * self.far as f32
+        }
+    }
+
     pub(crate) fn check(&self) -> Result<(), Error> {
         let finite = self.view_from_world.is_finite() && self.clip_from_view.is_finite() && self.near.is_finite();
         if !finite {
-            return Err(Error::View("its matrices hold numbers that are not finite (are eye and target the same point, or is up parallel to the view?)"));
+            return Err(Error::View(
+                "its matrices hold numbers that are not finite (are eye and target the same point, or is up parallel to the view?)",
+            ));
         }
         if self.near <= 0.0 {
             return Err(Error::View("near must be above 0"));

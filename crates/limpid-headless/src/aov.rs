@@ -1,0 +1,84 @@
+//! Buffers beside the picture.
+
+use limpid::{FrameBuffers, View};
+
+/// A buffer that can be read back beside the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Aov {
+    /// Positive view depth after the splat, +infinity where there is no fluid.
+    RawDepth,
+    /// Positive view depth after the filter, +infinity where there is no fluid.
+    Depth,
+    /// Depth of liquid along the ray, world units.
+    Thickness,
+    /// View-space unit normal.
+    Normal,
+    /// Linear premultiplied RGBA of the fluid before tone mapping.
+    Color,
+}
+
+impl Aov {
+    /// Every one there is.
+    pub const ALL: [Self; 5] = [Self::RawDepth, Self::Depth, Self::Thickness, Self::Normal, Self::Color];
+
+    /// Its name on the command line: "raw-depth", "depth", ...
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RawDepth => "raw-depth",
+            Self::Depth => "depth",
+            Self::Thickness => "thickness",
+            Self::Normal => "normal",
+            Self::Color => "color",
+        }
+    }
+
+    /// Values per pixel.
+    pub fn channels(self) -> usize {
+        match self {
+            Self::RawDepth | Self::Depth | Self::Thickness => 1,
+            Self::Normal => 3,
+            Self::Color => 4,
+        }
+    }
+}
+
+/// Rows of float32 pixels, row 0 at the top, channels interleaved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Values per pixel.
+    pub channels: usize,
+    /// size[0] * size[1] * channels values.
+    pub values: Vec<f32>,
+}
+
+impl Aov {
+    /// The GPU buffer that holds it, and its 4-byte words per pixel.
+    pub(crate) fn source<'a>(self, buffers: &FrameBuffers<'a>) -> (&'a wgpu::Buffer, usize) {
+        match self {
+            Self::RawDepth => (buffers.raw_nearness, 1),
+            Self::Depth => (buffers.nearness, 1),
+            Self::Thickness | Self::Normal => (buffers.surface, 4),
+            Self::Color => (buffers.shaded, 4),
+        }
+    }
+
+    /// The image of what its buffer holds; `nearness` says where there is fluid.
+    pub(crate) fn image(self, size: [u32; 2], words: &[f32], nearness: &[f32], view: &View) -> Image {
+        let values = match self {
+            Self::RawDepth | Self::Depth => words.iter().map(|nearness| view.depth_of(*nearness)).collect(),
+            Self::Thickness => inside(words, nearness, |pixel| [pixel[3]]),
+            Self::Normal => inside(words, nearness, |pixel| [pixel[0], pixel[1], pixel[2]]),
+            Self::Color => inside(words, nearness, |pixel| *pixel),
+        };
+        Image { size, channels: self.channels(), values }
+    }
+}
+
+/// The wanted part of each pixel, 0 where there is no fluid.
+fn inside<const N: usize>(words: &[f32], nearness: &[f32], part: impl Fn(&[f32; 4]) -> [f32; N]) -> Vec<f32> {
+    let (pixels, _) = words.as_chunks::<4>();
+    let value = |(pixel, nearness): (&[f32; 4], &f32)| if *nearness > 0.0 { part(pixel) } else { [0.0; N] };
+    pixels.iter().zip(nearness).flat_map(value).collect()
+}

@@ -1,0 +1,68 @@
+//! Copies from the device.
+
+use crate::Error;
+
+/// Waits until everything submitted is done.
+pub(crate) fn wait(device: &wgpu::Device) -> Result<(), Error> {
+    device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| Error::Device(error.to_string()))?;
+    Ok(())
+}
+
+fn read_bytes(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    bytes: u64,
+    copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
+) -> Result<Vec<u8>, Error> {
+    let staging = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size: bytes,
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&Default::default());
+    copy(&mut encoder, &staging);
+    queue.submit([encoder.finish()]);
+    let (sender, receiver) = std::sync::mpsc::channel();
+    staging.map_async(wgpu::MapMode::Read, .., move |result| {
+        // Nobody listens only when the wait below failed, and then says so itself.
+        let _ = sender.send(result);
+    });
+    wait(device)?;
+    let failed = |error: &dyn std::fmt::Display| Error::Device(error.to_string());
+    receiver.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+    let mapped = staging.get_mapped_range(..).map_err(|error| failed(&error))?;
+    Ok(mapped.to_vec())
+}
+
+/// The first `count` 4-byte words of a buffer, as floats.
+pub(crate) fn read_words(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    buffer: &wgpu::Buffer,
+    count: usize,
+) -> Result<Vec<f32>, Error> {
+    let bytes = 4 * count as u64;
+    let read = read_bytes(device, queue, bytes, |encoder, to| encoder.copy_buffer_to_buffer(buffer, 0, to, 0, bytes))?;
+    Ok(bytemuck::pod_collect_to_vec(&read))
+}
+
+/// All texels of a texture with 4 bytes a texel.
+pub(crate) fn read_texture(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    texture: &wgpu::Texture,
+) -> Result<Vec<u8>, Error> {
+    let row = 4 * texture.width();
+    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let bytes = u64::from(padded) * u64::from(texture.height());
+    let read = read_bytes(device, queue, bytes, |encoder, to| {
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None };
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer: to, layout },
+            texture.size(),
+        );
+    })?;
+    Ok(read.chunks_exact(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
+}

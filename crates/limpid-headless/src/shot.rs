@@ -1,0 +1,67 @@
+//! What to draw, and what comes of it.
+
+use crate::Image;
+use limpid::{Environment, ParticleSlices, PassTime, Settings, ToneMap, View};
+
+/// What is behind the fluid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Background {
+    /// The built-in floor, sky and sun.
+    #[default]
+    Scene,
+    /// Pure white.
+    White,
+    /// Pure black.
+    Black,
+    /// Nothing: the picture has alpha = 1 - mean transmittance.
+    Transparent,
+}
+
+impl Background {
+    /// Constant backgrounds stay as they are; the scene's highlights roll off.
+    pub fn tone_map(self) -> ToneMap {
+        match self {
+            Self::Scene => ToneMap::Neutral,
+            Self::White | Self::Black | Self::Transparent => ToneMap::Clip,
+        }
+    }
+}
+
+/// One picture to make.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot<'a> {
+    /// The fluid.
+    pub particles: ParticleSlices<'a>,
+    /// The camera.
+    pub view: View,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The look.
+    pub settings: Settings,
+    /// What surrounds the fluid (reflected in it whatever the background is).
+    pub environment: Environment,
+    /// What is behind it.
+    pub background: Background,
+    /// Multiplies the light before it is shown, default 1.
+    pub exposure: f32,
+}
+
+/// A finished picture.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// sRGB, straight alpha, row 0 at the top, 4 bytes a pixel.
+    pub rgba: Vec<u8>,
+    /// The buffers asked for, in that order.
+    pub aovs: Vec<Image>,
+}
+
+/// GPU time of a frame without readback.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timings {
+    /// Milliseconds of each counted frame, from the submission of its commands to their completion.
+    pub frame_ms: Vec<f64>,
+    /// Median of each pass over the counted frames, in the order they run; only "upload" on adapters without timestamps.
+    pub passes: Vec<PassTime>,
+}

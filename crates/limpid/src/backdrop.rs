@@ -1,0 +1,59 @@
+//! The procedural surroundings drawn as a scene: `backdrop.wgsl`.
+
+use crate::environment::EnvironmentUniform;
+use crate::gpu::{Slot, bind, slot_entries, uniform_buffer};
+use crate::passes::module;
+use crate::renderer::{SettingsUniform, TargetFormat, frame_layout};
+use crate::view::ViewUniform;
+use crate::{Environment, View};
+use glam::DVec3;
+
+/// Draws an [`Environment`] where a host has no scene of its own. Writes reversed depth: build the view with
+/// [`View::perspective`] or [`View::orthographic`] and compare with `Greater`.
+pub struct Backdrop {
+    pipeline: wgpu::RenderPipeline,
+    frame_group: wgpu::BindGroup,
+    environment_group: wgpu::BindGroup,
+    view: wgpu::Buffer,
+    environment: wgpu::Buffer,
+}
+
+impl Backdrop {
+    /// Builds the pipeline for one kind of target.
+    pub fn new(device: &wgpu::Device, target: &TargetFormat) -> Self {
+        let module = module!(device, "backdrop", "frame.wgsl", "fullscreen.wgsl", "environment.wgsl", "backdrop.wgsl");
+        let frame = frame_layout(device);
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("backdrop"),
+            entries: &slot_entries(&[Slot::Uniform], wgpu::ShaderStages::FRAGMENT),
+        });
+        let view = uniform_buffer::<ViewUniform>(device, "backdrop view");
+        // The frame's group wants settings, of which this shader uses none.
+        let settings = uniform_buffer::<SettingsUniform>(device, "no settings");
+        let environment = uniform_buffer::<EnvironmentUniform>(device, "backdrop environment");
+        Self {
+            pipeline: target.fullscreen_pipeline(device, &module, "backdrop", &[Some(&frame), Some(&layout)], None),
+            frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
+            environment_group: bind(device, &layout, &[environment.as_entire_binding()]),
+            view,
+            environment,
+        }
+    }
+
+    /// Draws into the host's pass. Its uniforms are written to the queue at once: one view per submission.
+    pub fn draw(
+        &self,
+        queue: &wgpu::Queue,
+        pass: &mut wgpu::RenderPass<'_>,
+        view: &View,
+        size: [u32; 2],
+        environment: &Environment,
+    ) {
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, DVec3::ZERO)));
+        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&environment.uniform(view)));
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.frame_group, &[]);
+        pass.set_bind_group(1, &self.environment_group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}

@@ -1,0 +1,86 @@
+//! A compute pipeline with the bind groups all kernels share: group 0 is the frame, group 1 the pass's own data.
+
+/// What a kernel's binding is; its place in the list is its binding number in group 1.
+#[derive(Clone, Copy)]
+pub(crate) enum Slot {
+    Read,
+    Write,
+    Uniform,
+    /// Any float colour texture, loaded texel by texel.
+    Color,
+    /// A depth texture, loaded texel by texel.
+    Depth,
+}
+
+impl Slot {
+    fn ty(self) -> wgpu::BindingType {
+        let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let texture = |sample_type| wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        match self {
+            Self::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+            Self::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+            Self::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+            Self::Color => texture(wgpu::TextureSampleType::Float { filterable: false }),
+            Self::Depth => texture(wgpu::TextureSampleType::Depth),
+        }
+    }
+}
+
+/// Layout entries of consecutive bindings.
+pub(crate) fn slot_entries(slots: &[Slot], visibility: wgpu::ShaderStages) -> Vec<wgpu::BindGroupLayoutEntry> {
+    let entry =
+        |(binding, slot): (u32, &Slot)| wgpu::BindGroupLayoutEntry { binding, visibility, ty: slot.ty(), count: None };
+    (0..).zip(slots).map(entry).collect()
+}
+
+/// A bind group of consecutive bindings.
+pub(crate) fn bind(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    resources: &[wgpu::BindingResource<'_>],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}
+
+/// A compute pipeline.
+pub(crate) struct Kernel {
+    pub(super) pipeline: wgpu::ComputePipeline,
+    pub(super) layout: wgpu::BindGroupLayout,
+}
+
+impl Kernel {
+    pub fn new(
+        device: &wgpu::Device,
+        frame_layout: &wgpu::BindGroupLayout,
+        module: &wgpu::ShaderModule,
+        entry_point: &str,
+        slots: &[Slot],
+    ) -> Self {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(entry_point),
+            entries: &slot_entries(slots, wgpu::ShaderStages::COMPUTE),
+        });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(entry_point),
+            bind_group_layouts: &[Some(frame_layout), Some(&layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(&pipeline_layout),
+            module,
+            entry_point: Some(entry_point),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Self { pipeline, layout }
+    }
+}

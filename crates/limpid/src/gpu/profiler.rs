@@ -1,0 +1,118 @@
+//! GPU time of each pass by timestamp queries.
+
+const MAX_PASSES: u32 = 512;
+
+/// GPU time of one pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassTime {
+    /// "splat-depth", "smooth/narrow-range-x", ... Passes of one name are added up.
+    pub name: String,
+    /// Milliseconds.
+    pub ms: f64,
+}
+
+/// Measures the passes of one frame on devices with [`wgpu::Features::TIMESTAMP_QUERY`].
+///
+/// Hand it to [`crate::Renderer::set_profiler`], call [`Profiler::resolve`] at the end of the frame's encoder, submit, then
+/// map and read with [`Profiler::read`].
+pub struct Profiler {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    readable: wgpu::Buffer,
+    names: Vec<String>,
+    ns_per_tick: f64,
+}
+
+impl Profiler {
+    /// None where the device has no timestamps.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Self> {
+        if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return None;
+        }
+        let buffer = |usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("timestamps"),
+                size: u64::from(2 * MAX_PASSES) * 8,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        Some(Self {
+            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("passes"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * MAX_PASSES,
+            }),
+            resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
+            readable: buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
+            names: Vec::new(),
+            ns_per_tick: f64::from(queue.get_timestamp_period()),
+        })
+    }
+
+    fn next(&mut self, name: &str) -> Option<(u32, u32)> {
+        let first = 2 * self.names.len() as u32;
+        if first + 1 >= 2 * MAX_PASSES {
+            return None;
+        }
+        self.names.push(name.to_owned());
+        Some((first, first + 1))
+    }
+
+    /// Queries around a compute pass; None beyond the 512th pass of a frame.
+    pub fn compute(&mut self, name: &str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        let (begin, end) = self.next(name)?;
+        Some(wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(begin),
+            end_of_pass_write_index: Some(end),
+        })
+    }
+
+    /// Queries around a render pass of the host's; None beyond the 512th pass of a frame.
+    pub fn render(&mut self, name: &str) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        let (begin, end) = self.next(name)?;
+        Some(wgpu::RenderPassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(begin),
+            end_of_pass_write_index: Some(end),
+        })
+    }
+
+    /// Ends the frame's measurement: call it after the last pass.
+    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        let count = 2 * self.names.len() as u32;
+        if count > 0 {
+            encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
+            encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, u64::from(count) * 8);
+        }
+    }
+
+    /// Waits for the submitted frame and returns the time from the first pass's begin to the last one's end, and each
+    /// pass's own, in the order they ran. Starts over for the next frame.
+    pub fn read(&mut self, device: &wgpu::Device) -> (f64, Vec<PassTime>) {
+        let count = 2 * self.names.len();
+        if count == 0 {
+            return (0.0, Vec::new());
+        }
+        self.readable.map_async(wgpu::MapMode::Read, 0..count as u64 * 8, |_| {});
+        let waited = device.poll(wgpu::PollType::wait_indefinitely());
+        let ticks: Vec<u64> = match (waited, self.readable.get_mapped_range(0..count as u64 * 8)) {
+            (Ok(_), Ok(bytes)) => bytemuck::pod_collect_to_vec(&bytes),
+            _ => vec![0; count],
+        };
+        self.readable.unmap();
+        let ms = |begin: u64, end: u64| end.saturating_sub(begin) as f64 * self.ns_per_tick * 1e-6;
+        let mut passes: Vec<PassTime> = Vec::new();
+        for (name, ticks) in self.names.drain(..).zip(ticks.chunks_exact(2)) {
+            let time = ms(ticks[0], ticks[1]);
+            match passes.iter_mut().find(|pass| pass.name == name) {
+                Some(pass) => pass.ms += time,
+                None => passes.push(PassTime { name, ms: time }),
+            }
+        }
+        let begin = ticks.iter().copied().min().unwrap_or(0);
+        let end = ticks.iter().copied().max().unwrap_or(0);
+        (ms(begin, end), passes)
+    }
+}

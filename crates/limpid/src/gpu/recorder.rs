@@ -1,0 +1,48 @@
+//! Recording of compute passes into the host's encoder.
+
+use super::kernel::bind;
+use super::{Kernel, Profiler};
+
+/// How many workgroups a kernel runs on.
+pub(crate) enum Grid<'a> {
+    /// One group for up to `.1` of `.0` items, in two dimensions beyond 65,535 groups (frame.wgsl's `item_index`).
+    Items(u64, u64),
+    /// Groups of 8 x 8 over an image.
+    Image([u32; 2]),
+    /// Groups from the first three words of a buffer.
+    Indirect(&'a wgpu::Buffer),
+}
+
+/// The frame under recording.
+pub(crate) struct Recorder<'a> {
+    pub device: &'a wgpu::Device,
+    pub encoder: &'a mut wgpu::CommandEncoder,
+    pub frame_group: &'a wgpu::BindGroup,
+    pub profiler: Option<&'a mut Profiler>,
+}
+
+impl Recorder<'_> {
+    /// Records one kernel as a compute pass of its own, so that it can be timed.
+    pub fn run(&mut self, name: &str, kernel: &Kernel, resources: &[wgpu::BindingResource<'_>], grid: &Grid<'_>) {
+        let group = bind(self.device, &kernel.layout, resources);
+        let timestamp_writes = self.profiler.as_deref_mut().and_then(|profiler| profiler.compute(name));
+        let mut pass =
+            self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
+        pass.set_pipeline(&kernel.pipeline);
+        pass.set_bind_group(0, self.frame_group, &[]);
+        pass.set_bind_group(1, &group, &[]);
+        match grid {
+            Grid::Items(items, lanes) => {
+                let groups = items.div_ceil(*lanes);
+                pass.dispatch_workgroups(groups.min(65_535) as u32, groups.div_ceil(65_535) as u32, 1);
+            }
+            Grid::Image(size) => pass.dispatch_workgroups(size[0].div_ceil(8), size[1].div_ceil(8), 1),
+            Grid::Indirect(buffer) => pass.dispatch_workgroups_indirect(buffer, 0),
+        }
+    }
+
+    /// Zeroes a whole buffer.
+    pub fn clear(&mut self, buffer: &wgpu::Buffer) {
+        self.encoder.clear_buffer(buffer, 0, None);
+    }
+}

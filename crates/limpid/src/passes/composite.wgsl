@@ -1,0 +1,24 @@
+// The fluid over the host's target, at the host's depth.
+
+@group(1) @binding(0) var<storage, read> nearness: array<f32>;
+@group(1) @binding(1) var<storage, read> shaded: array<vec4f>;
+
+struct Fragment {
+    @location(0) color: vec4f, // linear, premultiplied
+    @builtin(frag_depth) depth: f32,
+}
+
+@fragment
+fn composite(@builtin(position) position: vec4f) -> Fragment {
+    let pixel = min(vec2u(position.xy), view.size - 1u);
+    let index = pixel.y * view.size.x + pixel.x;
+    let near = nearness[index];
+    if near <= 0.0 {
+        discard;
+    }
+    let color = shaded[index];
+    if color.a <= 0.0 {
+        discard;
+    }
+    return Fragment(color, host_from_depth(depth_of(near)));
+}

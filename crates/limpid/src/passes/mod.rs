@@ -1,0 +1,28 @@
+//! The passes of a frame, in the order of their names here; each is one file beside its WGSL.
+
+mod composite;
+mod normals;
+mod shade;
+mod smooth;
+mod splat;
+mod thickness;
+mod tiles;
+
+pub(crate) use composite::Composite;
+pub(crate) use normals::Normals;
+pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
+pub(crate) use smooth::Smooth;
+pub(crate) use splat::Splat;
+pub(crate) use thickness::{Thickness, level_count, pyramid_texels};
+pub(crate) use tiles::Tiles;
+
+/// What `frame.wgsl` and the parts of a pass say, as one shader module.
+macro_rules! module {
+    ($device:expr, $label:literal, $($part:literal),+) => {
+        $device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some($label),
+            source: wgpu::ShaderSource::Wgsl(concat!($(include_str!($part), "\n"),+).into()),
+        })
+    };
+}
+pub(crate) use module;

@@ -1,0 +1,29 @@
+//! Normals of the smoothed surface, and its thickness at full resolution: `normals.wgsl`.
+
+use super::module;
+use crate::gpu::{Grid, Kernel, Recorder, Slot};
+use crate::targets::Targets;
+
+pub(crate) struct Normals {
+    kernel: Kernel,
+}
+
+impl Normals {
+    pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let module = module!(device, "normals", "../frame.wgsl", "tile_pixel.wgsl", "normals.wgsl");
+        Self {
+            kernel: Kernel::new(device, frame, &module, "normals", &[Slot::Read, Slot::Read, Slot::Read, Slot::Write]),
+        }
+    }
+
+    /// Writes `targets.surface` for the smoothed nearness in `smoothed`.
+    pub fn encode(&self, recorder: &mut Recorder<'_>, smoothed: &wgpu::Buffer, targets: &Targets) {
+        let resources = [
+            targets.tiles.as_entire_binding(),
+            smoothed.as_entire_binding(),
+            targets.thickness[0].as_entire_binding(),
+            targets.surface.as_entire_binding(),
+        ];
+        recorder.run("normals", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));
+    }
+}

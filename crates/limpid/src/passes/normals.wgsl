@@ -1,0 +1,80 @@
+// The smoothed surface as shading needs it: view-space unit normal, and the thickness interpolated within the fluid.
+
+@group(1) @binding(1) var<storage, read> nearness: array<f32>;
+@group(1) @binding(2) var<storage, read> thickness: array<f32>;
+@group(1) @binding(3) var<storage, read_write> surface: array<vec4f>; // normal, thickness in world units
+
+fn nearness_at(at: vec2i) -> f32 {
+    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
+        return 0.0;
+    }
+    return nearness[u32(at.y) * view.size.x + u32(at.x)];
+}
+
+// Slope of the nearness per pixel along an axis. Neighbours within the step of the centre are the same sheet: the central
+// difference where both are, else the difference to the nearer in depth, else none (one lonely pixel faces the eye).
+fn nearness_slope(at: vec2i, axis: vec2i, center: f32) -> f32 {
+    let ahead = nearness_at(at + axis) - center;
+    let behind = center - nearness_at(at - axis);
+    let limit = settings.normal_step * settings.radius / depth_slope(center);
+    let ahead_is_sheet = abs(ahead) <= limit;
+    let behind_is_sheet = abs(behind) <= limit;
+    if ahead_is_sheet && behind_is_sheet {
+        return 0.5 * (ahead + behind);
+    }
+    if !ahead_is_sheet && !behind_is_sheet {
+        return 0.0;
+    }
+    return select(behind, ahead, ahead_is_sheet);
+}
+
+// Normal of the surface with these slopes of nearness per pixel. With P = origin + z direction, a plane n . P = c has
+// (1 / z) c = n . direction (perspective): the slopes of 1 / z give n exactly, the W terms of Eq. 3 included.
+fn normal_of(at: vec2i, center: f32, slope_px: vec2f) -> vec3f {
+    let slope = slope_px / view.px_step;
+    if is_perspective() {
+        let ray = pixel_ray(vec2f(at) + 0.5).direction.xy;
+        return normalize(vec3f(-slope, center - dot(ray, slope)));
+    }
+    return normalize(vec3f(-slope * view.far, 1.0));
+}
+
+// Bilinear, without the texels that hold no liquid.
+fn thickness_at(at: vec2i) -> f32 {
+    let texel = (vec2f(at) + 0.5) / settings.thickness_divisor - 0.5;
+    let low = floor(texel);
+    let part = texel - low;
+    var sum = 0.0;
+    var weights = 0.0;
+    for (var corner = 0; corner < 4; corner++) {
+        let offset = vec2i(corner & 1, corner >> 1u);
+        let texel_at = clamp(vec2i(low) + offset, vec2i(0), vec2i(settings.thickness_size) - 1);
+        let value = thickness[u32(texel_at.y) * settings.thickness_size.x + u32(texel_at.x)];
+        let along = select(1.0 - part, part, offset == vec2i(1));
+        let weight = along.x * along.y;
+        if value > 0.0 {
+            sum += weight * value;
+            weights += weight;
+        }
+    }
+    return select(0.0, sum / weights, weights > 0.0);
+}
+
+@compute @workgroup_size(8, 8)
+fn normals(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    let pixel = tile_pixel(group, groups, local);
+    if !pixel.inside {
+        return;
+    }
+    let center = nearness[pixel.index];
+    if center <= 0.0 {
+        surface[pixel.index] = vec4f(0.0);
+        return;
+    }
+    let slope = vec2f(nearness_slope(pixel.at, vec2i(1, 0), center), nearness_slope(pixel.at, vec2i(0, 1), center));
+    surface[pixel.index] = vec4f(normal_of(pixel.at, center, slope), thickness_at(pixel.at));
+}

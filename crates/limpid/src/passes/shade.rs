@@ -1,0 +1,89 @@
+//! Shading: `shade.wgsl`.
+
+use super::module;
+use crate::environment::EnvironmentUniform;
+use crate::gpu::{Grid, Kernel, Recorder, Slot, uniform_buffer};
+use crate::settings::{Absorption, Optics};
+use crate::targets::Targets;
+use bytemuck::{Pod, Zeroable};
+
+/// `shade.wgsl`'s `Optics`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct OpticsUniform {
+    pub absorption: [f32; 3],
+    pub refractive_index: f32,
+    pub color: [f32; 3],
+    pub refraction: f32,
+    pub specular: f32,
+    pub shininess: f32,
+    pub padding: [f32; 2],
+}
+
+impl OpticsUniform {
+    pub fn new(optics: &Optics, radius: f32) -> Self {
+        Self {
+            absorption: match optics.absorption {
+                Absorption::PerRadius(rgb) => rgb.map(|k| k / radius),
+                Absorption::PerWorld(rgb) => rgb,
+            },
+            refractive_index: optics.refractive_index,
+            color: optics.color,
+            refraction: optics.refraction,
+            specular: optics.specular,
+            shininess: optics.shininess,
+            padding: [0.0; 2],
+        }
+    }
+}
+
+/// The host's scene as shaders see it; stand-ins of one texel where there is none.
+pub(crate) struct SceneViews<'a> {
+    pub color: &'a wgpu::TextureView,
+    pub depth: &'a wgpu::TextureView,
+}
+
+pub(crate) struct Shade {
+    kernel: Kernel,
+    optics: wgpu::Buffer,
+    environment: wgpu::Buffer,
+}
+
+impl Shade {
+    pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let module = module!(device, "shade", "../frame.wgsl", "tile_pixel.wgsl", "../environment.wgsl", "shade.wgsl");
+        let slots =
+            [Slot::Read, Slot::Uniform, Slot::Uniform, Slot::Read, Slot::Read, Slot::Write, Slot::Color, Slot::Depth];
+        Self {
+            kernel: Kernel::new(device, frame, &module, "shade", &slots),
+            optics: uniform_buffer::<OpticsUniform>(device, "optics"),
+            environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
+        }
+    }
+
+    pub fn write(&self, queue: &wgpu::Queue, optics: &OpticsUniform, environment: &EnvironmentUniform) {
+        queue.write_buffer(&self.optics, 0, bytemuck::bytes_of(optics));
+        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(environment));
+    }
+
+    /// Writes `targets.shaded`.
+    pub fn encode(
+        &self,
+        recorder: &mut Recorder<'_>,
+        smoothed: &wgpu::Buffer,
+        scene: &SceneViews<'_>,
+        targets: &Targets,
+    ) {
+        let resources = [
+            targets.tiles.as_entire_binding(),
+            self.optics.as_entire_binding(),
+            self.environment.as_entire_binding(),
+            smoothed.as_entire_binding(),
+            targets.surface.as_entire_binding(),
+            targets.shaded.as_entire_binding(),
+            wgpu::BindingResource::TextureView(scene.color),
+            wgpu::BindingResource::TextureView(scene.depth),
+        ];
+        recorder.run("shade", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));
+    }
+}

@@ -1,0 +1,67 @@
+// Thickness: the depth of liquid along each ray (van der Laan 2009, Eq. 9), as the sum of the balls' chords times
+// 6 / (pi S^3), so that a lattice of spacing 2 r integrates to its true depth whatever the splat scale S.
+//
+// Sums are fixed-point, so that their order does not matter. A splat goes to the level of an image pyramid in which it is
+// at most MAX_TEXELS wide: the cost of a particle is bounded however near it is, and a chord is smooth at that sampling.
+
+@group(1) @binding(2) var<storage, read_write> sums: array<atomic<u32>>;
+@group(1) @binding(3) var<storage, read_write> levels_used: atomic<u32>; // bit l: level l holds something
+@group(1) @binding(4) var scene_depth: texture_depth_2d;
+
+const MAX_TEXELS: f32 = 20.0;
+// Sums stop growing here, far below overflow, and read as this: half a million r of liquid.
+const FULL: u32 = 0x80000000u;
+
+// Where the scene's surface is, as seen through a pixel position.
+fn scene_depth_at(px: vec2f) -> f32 {
+    if settings.has_scene_depth == 0u {
+        return 3.4e38;
+    }
+    let pixel = min(vec2u(px), view.size - 1u);
+    let depth = depth_from_host(textureLoad(scene_depth, pixel, 0));
+    return select(3.4e38, depth, depth > 0.0);
+}
+
+@compute @workgroup_size(64)
+fn splat(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = item_index(group, groups, lane, 64u);
+    if index >= arrayLength(&particles) {
+        return;
+    }
+    let ball = ball_of(index);
+    if !ball.drawn {
+        return;
+    }
+    var box = texel_box(ball, settings.thickness_divisor, settings.thickness_size);
+    let extent = vec2f(box.max - box.min + 1);
+    if extent.x <= 0.0 || extent.y <= 0.0 {
+        return;
+    }
+    let level = min(u32(max(ceil(log2(max(extent.x, extent.y) / MAX_TEXELS)), 0.0)), settings.thickness_levels - 1u);
+    let px = settings.thickness_divisor * f32(1u << level);
+    let size = level_size(level);
+    if level > 0u {
+        box = texel_box(ball, px, size);
+    }
+    atomicOr(&levels_used, 1u << level);
+    let first = level_start(level);
+    let scale = settings.splat_scale;
+    let counts_per_world = 6.0 / (3.14159265 * scale * scale * scale * settings.thickness_unit);
+    for (var y = box.min.y; y <= box.max.y; y++) {
+        for (var x = box.min.x; x <= box.max.x; x++) {
+            let at = (vec2f(f32(x), f32(y)) + 0.5) * px;
+            let chord = ball_chord(ball, pixel_ray(at));
+            // Liquid never overlaps an obstacle, only its drawn balls do: a chord counts whole where its middle is free.
+            if chord.length > 0.0 && 0.5 * (chord.enter + chord.leave) < scene_depth_at(at) {
+                let texel = first + u32(y) * size.x + u32(x);
+                if atomicLoad(&sums[texel]) < FULL {
+                    atomicAdd(&sums[texel], u32(min(chord.length * counts_per_world, 1048576.0) + 0.5));
+                }
+            }
+        }
+    }
+}

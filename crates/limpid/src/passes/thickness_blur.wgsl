@@ -1,0 +1,91 @@
+// Collapses the pyramid into one image and blurs it within the fluid: balls show as ripples in a plain sum.
+
+@group(1) @binding(0) var<storage, read> sums: array<u32>;
+@group(1) @binding(1) var<storage, read> levels_used: u32;
+@group(1) @binding(2) var<storage, read> input: array<f32>;
+@group(1) @binding(3) var<storage, read_write> output: array<f32>;
+@group(1) @binding(4) var<storage, read> raw: array<f32>; // nearness, full resolution
+
+// Standard deviation of the blur, in r: a lattice's ripple, of period 2 r, falls to a sixteenth.
+const SIGMA: f32 = 0.75;
+const TAPS: i32 = 8; // each side, over two standard deviations
+
+fn level_texel(level: u32, start: u32, size: vec2u, at: vec2i) -> f32 {
+    let texel = vec2u(clamp(at, vec2i(0), vec2i(size) - 1));
+    return f32(min(sums[start + texel.y * size.x + texel.x], 0x80000000u));
+}
+
+// Sums of all levels, those above the finest interpolated, in world units.
+@compute @workgroup_size(8, 8)
+fn collapse(@builtin(global_invocation_id) texel: vec3u) {
+    if any(texel.xy >= settings.thickness_size) {
+        return;
+    }
+    var total = 0.0;
+    let used = levels_used;
+    for (var level = 0u; level < settings.thickness_levels; level++) {
+        if (used & (1u << level)) == 0u {
+            continue;
+        }
+        let start = level_start(level);
+        let size = level_size(level);
+        let at = (vec2f(texel.xy) + 0.5) / f32(1u << level) - 0.5;
+        let low = floor(at);
+        let part = at - low;
+        let corner = vec2i(low);
+        if level == 0u {
+            total += level_texel(level, start, size, corner);
+            continue;
+        }
+        let top = mix(level_texel(level, start, size, corner), level_texel(level, start, size, corner + vec2i(1, 0)), part.x);
+        let bottom = mix(level_texel(level, start, size, corner + vec2i(0, 1)), level_texel(level, start, size, corner + vec2i(1, 1)), part.x);
+        total += mix(top, bottom, part.y);
+    }
+    output[texel.y * settings.thickness_size.x + texel.x] = total * settings.thickness_unit;
+}
+
+// One axis of a Gaussian whose width follows the depth of the surface there; texels without liquid have no say.
+fn blur(texel: vec2u, axis: vec2i) {
+    if any(texel >= settings.thickness_size) {
+        return;
+    }
+    let index = texel.y * settings.thickness_size.x + texel.x;
+    let center = input[index];
+    let pixel = min(vec2u((vec2f(texel) + 0.5) * settings.thickness_divisor), view.size - 1u);
+    let nearness = raw[pixel.y * view.size.x + pixel.x];
+    if center <= 0.0 || nearness <= 0.0 {
+        output[index] = center;
+        return;
+    }
+    let sigma = SIGMA * settings.radius * px_per_world(depth_of(nearness)) / settings.thickness_divisor;
+    // Wide blurs step over texels: what is near enough to need them came from a coarse level and is smooth.
+    let step = max(2.0 * sigma / f32(TAPS), 1.0);
+    let last = min(i32(ceil(2.0 * sigma)), TAPS);
+    var sum = center;
+    var weights = 1.0;
+    for (var tap = 1; tap <= last; tap++) {
+        let distance = round(f32(tap) * step);
+        let weight = exp(-0.5 * distance * distance / (sigma * sigma));
+        for (var side = -1; side <= 1; side += 2) {
+            let at = vec2i(texel) + side * i32(distance) * axis;
+            if all(at >= vec2i(0)) && all(at < vec2i(settings.thickness_size)) {
+                let value = input[u32(at.y) * settings.thickness_size.x + u32(at.x)];
+                if value > 0.0 {
+                    sum += weight * value;
+                    weights += weight;
+                }
+            }
+        }
+    }
+    output[index] = sum / weights;
+}
+
+@compute @workgroup_size(8, 8)
+fn blur_x(@builtin(global_invocation_id) texel: vec3u) {
+    blur(texel.xy, vec2i(1, 0));
+}
+
+@compute @workgroup_size(8, 8)
+fn blur_y(@builtin(global_invocation_id) texel: vec3u) {
+    blur(texel.xy, vec2i(0, 1));
+}

@@ -1,0 +1,319 @@
+//! The frame: one road from particles to the host's target.
+
+use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, uniform_buffer};
+use crate::passes::{
+    Composite, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, level_count,
+};
+use crate::targets::Targets;
+use crate::view::ViewUniform;
+use crate::{Environment, Error, Particles, Settings, View};
+use bytemuck::{Pod, Zeroable};
+
+/// The host's render target that [`Renderer::composite`] draws into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TargetFormat {
+    /// Format of the colour target. The fluid is written as linear premultiplied colour; an sRGB format encodes it.
+    pub color: wgpu::TextureFormat,
+    /// Format of the depth target and the comparison that lets nearer things win; None: no depth target.
+    pub depth: Option<(wgpu::TextureFormat, wgpu::CompareFunction)>,
+    /// Samples per pixel of both, 1 or 4.
+    pub samples: u32,
+}
+
+impl TargetFormat {
+    pub(crate) fn fullscreen_pipeline(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        fragment: &str,
+        layouts: &[Option<&wgpu::BindGroupLayout>],
+        blend: Option<wgpu::BlendState>,
+    ) -> wgpu::RenderPipeline {
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(fragment),
+            bind_group_layouts: layouts,
+            immediate_size: 0,
+        });
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(fragment),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("fullscreen"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: self.depth.map(|(format, compare)| wgpu::DepthStencilState {
+                format,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(compare),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: self.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(fragment),
+                compilation_options: Default::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: self.color,
+                    blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// What is already in the host's picture. Both textures have the frame's size and one sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// Linear colour, any float format, seen through the fluid. None: nothing is behind it, and its alpha is
+    /// 1 - mean transmittance.
+    pub color: Option<&'a wgpu::TextureView>,
+    /// Depth by the view's projection. Hides fluid behind it, and ends its thickness. None: nothing is in the way.
+    pub depth: Option<&'a wgpu::TextureView>,
+}
+
+/// One picture of one fluid.
+#[derive(Clone, Copy)]
+pub struct Frame<'a> {
+    /// The fluid.
+    pub particles: &'a Particles,
+    /// The camera.
+    pub view: &'a View,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The look.
+    pub settings: &'a Settings,
+    /// What the fluid reflects.
+    pub environment: &'a Environment,
+    /// What it stands in.
+    pub scene: Scene<'a>,
+}
+
+/// `frame.wgsl`'s `Settings`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct SettingsUniform {
+    pub radius: f32,
+    pub splat_scale: f32,
+    pub density_threshold: f32,
+    pub thickness_unit: f32,
+    pub thickness_size: [u32; 2],
+    pub thickness_levels: u32,
+    pub thickness_divisor: f32,
+    pub strength: f32,
+    pub max_radius_px: f32,
+    pub range: f32,
+    pub clamp: f32,
+    pub normal_step: f32,
+    pub min_thickness: f32,
+    pub has_scene_depth: u32,
+    pub background: u32,
+}
+
+/// Counts of the thickness sums per r: fine enough that rounding vanishes, coarse enough for half a million r.
+const THICKNESS_COUNTS: f32 = 4096.0;
+
+/// Draws fluids on one device for one kind of target. Keeps its buffers from frame to frame.
+pub struct Renderer {
+    frame_layout: wgpu::BindGroupLayout,
+    view: wgpu::Buffer,
+    settings: wgpu::Buffer,
+    splat: Splat,
+    tiles: Tiles,
+    thickness: Thickness,
+    smooth: Smooth,
+    normals: Normals,
+    shade: Shade,
+    composite: Composite,
+    nothing: Nothing,
+    targets: Option<Targets>,
+    prepared: Option<Prepared>,
+    profiler: Option<Profiler>,
+}
+
+/// What `composite` and the readers of buffers need of the last prepared frame.
+struct Prepared {
+    frame_group: wgpu::BindGroup,
+    images: wgpu::BindGroup,
+    smoothed: wgpu::Buffer,
+}
+
+/// Stand-ins for a scene's textures where there is no scene.
+struct Nothing {
+    color: wgpu::TextureView,
+    depth: wgpu::TextureView,
+}
+
+impl Nothing {
+    fn new(device: &wgpu::Device) -> Self {
+        let texture = |format| {
+            let texture = device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("no scene"),
+                size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            });
+            texture.create_view(&Default::default())
+        };
+        Self { color: texture(wgpu::TextureFormat::Rgba8Unorm), depth: texture(wgpu::TextureFormat::Depth32Float) }
+    }
+}
+
+pub(crate) fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let stages = wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::FRAGMENT;
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("frame"),
+        entries: &slot_entries(&[Slot::Uniform, Slot::Uniform], stages),
+    })
+}
+
+impl Renderer {
+    /// Builds every pipeline. `target` is what [`Self::composite`] will draw into.
+    pub fn new(device: &wgpu::Device, target: &TargetFormat) -> Self {
+        let layout = frame_layout(device);
+        Self {
+            view: uniform_buffer::<ViewUniform>(device, "view"),
+            settings: uniform_buffer::<SettingsUniform>(device, "settings"),
+            splat: Splat::new(device, &layout),
+            tiles: Tiles::new(device, &layout),
+            thickness: Thickness::new(device, &layout),
+            smooth: Smooth::new(device, &layout),
+            normals: Normals::new(device, &layout),
+            shade: Shade::new(device, &layout),
+            composite: Composite::new(device, &layout, target),
+            nothing: Nothing::new(device),
+            targets: None,
+            prepared: None,
+            profiler: None,
+            frame_layout: layout,
+        }
+    }
+
+    /// Measures the passes of the frames to come; None stops. Returns the one there was.
+    pub fn set_profiler(&mut self, profiler: Option<Profiler>) -> Option<Profiler> {
+        std::mem::replace(&mut self.profiler, profiler)
+    }
+
+    /// The profiler at work, for the host's own passes.
+    pub fn profiler(&mut self) -> Option<&mut Profiler> {
+        self.profiler.as_mut()
+    }
+
+    /// Records everything up to the shaded fluid. Buffers follow the frame's size and settings by themselves.
+    ///
+    /// # Errors
+    /// A setting out of its range, an unusable camera, a size that the device cannot hold. Nothing is recorded then.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame<'_>,
+    ) -> Result<(), Error> {
+        frame.view.check()?;
+        frame.settings.check()?;
+        let Frame { particles, settings, .. } = *frame;
+        let scene = SceneViews {
+            color: frame.scene.color.unwrap_or(&self.nothing.color),
+            depth: frame.scene.depth.unwrap_or(&self.nothing.depth),
+        };
+        let fits = |t: &Targets| t.size == frame.size && t.thickness_scale == settings.thickness_scale;
+        if !self.targets.as_ref().is_some_and(fits) {
+            self.prepared = None;
+            self.targets = None; // before the new ones: they may not fit beside each other
+        }
+        let targets = match self.targets.take() {
+            Some(targets) => targets,
+            None => Targets::new(device, frame.size, settings.thickness_scale)?,
+        };
+
+        let view = frame.view.uniform(frame.size, particles.origin);
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
+        queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
+        let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
+        self.shade.write(queue, &optics, &frame.environment.uniform(frame.view));
+        let frame_group =
+            bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
+
+        let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
+        self.splat.encode(recorder, &particles.chunks, &targets);
+        self.tiles.encode(recorder, &targets);
+        self.thickness.encode(recorder, &particles.chunks, scene.depth, &targets);
+        let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
+        self.normals.encode(recorder, smoothed, &targets);
+        self.shade.encode(recorder, smoothed, &scene, &targets);
+
+        let images = self.composite.bind(device, smoothed, &targets.shaded);
+        self.prepared = Some(Prepared { frame_group, images, smoothed: smoothed.clone() });
+        self.targets = Some(targets);
+        Ok(())
+    }
+
+    /// Draws the prepared fluid into the host's pass: linear premultiplied colour, blended over what is there, and depth.
+    /// Draws nothing before the first [`Self::prepare`].
+    pub fn composite(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(prepared) = &self.prepared {
+            self.composite.draw(pass, &prepared.frame_group, &prepared.images);
+        }
+    }
+
+    /// The buffers of the last prepared frame, for reading back; None before the first.
+    pub fn buffers(&self) -> Option<FrameBuffers<'_>> {
+        let targets = self.targets.as_ref()?;
+        Some(FrameBuffers {
+            raw_nearness: &targets.raw,
+            nearness: &self.prepared.as_ref()?.smoothed,
+            surface: &targets.surface,
+            shaded: &targets.shaded,
+        })
+    }
+}
+
+/// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is 0 there is no fluid, and the others
+/// hold anything.
+///
+/// Nearness is 1 / depth in perspective views and 1 - depth / far in orthographic ones ([`View::depth_of`]).
+#[derive(Clone, Copy)]
+pub struct FrameBuffers<'a> {
+    /// f32 nearness after the splat.
+    pub raw_nearness: &'a wgpu::Buffer,
+    /// f32 nearness after the filter.
+    pub nearness: &'a wgpu::Buffer,
+    /// Four f32: the view-space unit normal, and the thickness in world units.
+    pub surface: &'a wgpu::Buffer,
+    /// Four f32: linear premultiplied colour.
+    pub shaded: &'a wgpu::Buffer,
+}
+
+fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
+    let Frame { particles, settings, scene, .. } = *frame;
+    let smoothing = &settings.smoothing;
+    SettingsUniform {
+        radius: particles.reference_radius,
+        splat_scale: settings.splat_scale,
+        density_threshold: if particles.has_density() { settings.density_threshold } else { 0.0 },
+        thickness_unit: particles.reference_radius / THICKNESS_COUNTS,
+        thickness_size: targets.thickness_size,
+        thickness_levels: level_count(targets.thickness_size),
+        thickness_divisor: targets.thickness_scale.divisor() as f32,
+        // Variances add up over iterations.
+        strength: smoothing.strength / (smoothing.iterations as f32).sqrt(),
+        max_radius_px: smoothing.max_radius_px as f32,
+        range: smoothing.range,
+        clamp: smoothing.clamp,
+        normal_step: settings.normal_step,
+        min_thickness: settings.min_thickness,
+        has_scene_depth: u32::from(scene.depth.is_some()),
+        background: u32::from(scene.color.is_some()),
+    }
+}

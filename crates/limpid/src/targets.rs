@@ -1,0 +1,66 @@
+//! The images of one frame, made anew when its size changes.
+
+use crate::gpu::storage_buffer;
+use crate::passes::pyramid_texels;
+use crate::{Error, Scale};
+
+/// `frame.wgsl`'s `BLOCK`.
+const BLOCK_PX: u32 = 32;
+const TILE_PX: u32 = 8;
+
+/// Bytes per pixel of the largest image, `surface` or `shaded`.
+const LARGEST_PIXEL: u64 = 16;
+
+pub(crate) struct Targets {
+    pub size: [u32; 2],
+    pub thickness_scale: Scale,
+    pub thickness_size: [u32; 2],
+    /// f32 nearness (frame.wgsl) after the splat.
+    pub raw: wgpu::Buffer,
+    /// u32 nearness bits per block that all its pixels reach.
+    pub covered: wgpu::Buffer,
+    /// Indirect dispatch, count and positions of the tiles that hold fluid.
+    pub tiles: wgpu::Buffer,
+    /// f32 nearness, the filters' ping-pong.
+    pub smooth: [wgpu::Buffer; 2],
+    /// u32 fixed-point thickness pyramid.
+    pub thickness_sums: wgpu::Buffer,
+    pub levels_used: wgpu::Buffer,
+    /// f32 thickness in world units: the first is the result.
+    pub thickness: [wgpu::Buffer; 2],
+    /// vec4: view-space normal, thickness in world units.
+    pub surface: wgpu::Buffer,
+    /// vec4: linear premultiplied colour.
+    pub shaded: wgpu::Buffer,
+}
+
+impl Targets {
+    pub fn new(device: &wgpu::Device, size: [u32; 2], thickness_scale: Scale) -> Result<Self, Error> {
+        let limits = device.limits();
+        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let [width, height] = size;
+        let pixels = u64::from(width) * u64::from(height);
+        let needed = pixels * LARGEST_PIXEL;
+        if pixels == 0 || needed > limit || width.max(height) > TILE_PX * 65_535 {
+            return Err(Error::Size { width, height, needed, limit });
+        }
+        let count = |px: u32| u64::from(width.div_ceil(px)) * u64::from(height.div_ceil(px));
+        let thickness_size = thickness_scale.of(size);
+        let thickness_texels = u64::from(thickness_size[0]) * u64::from(thickness_size[1]);
+        let image = |label, bytes| storage_buffer(device, label, bytes);
+        Ok(Self {
+            size,
+            thickness_scale,
+            thickness_size,
+            raw: image("raw nearness", 4 * pixels),
+            covered: image("covered blocks", 4 * count(BLOCK_PX)),
+            tiles: image("tiles", 16 + 4 * count(TILE_PX)),
+            smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
+            thickness_sums: image("thickness sums", 4 * pyramid_texels(thickness_size)),
+            levels_used: image("thickness levels used", 4),
+            thickness: [image("thickness a", 4 * thickness_texels), image("thickness b", 4 * thickness_texels)],
+            surface: image("surface", 16 * pixels),
+            shaded: image("shaded", 16 * pixels),
+        })
+    }
+}
