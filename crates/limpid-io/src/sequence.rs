@@ -27,7 +27,8 @@ pub struct Frame {
 }
 
 /// Expands inputs into frames. An input is a file, a folder, a pattern of numbered files (`frame_{}.vtk`,
-/// `frame_%04d.bgeo`, `frame_####.ply`, `frame_$F4.bgeo`) or a glob (`*` and `?` in the file name).
+/// `frame_%04d.bgeo`, `frame_####.ply`, `frame_$F4.bgeo`), a glob (`*` and `?` in the file name) or a `.vtk.series`
+/// file, whose order stays.
 ///
 /// Numbers are ordered as numbers, padded or not. Files given one by one keep their order, except that neighbours of
 /// the same sequence are ordered by number, since a shell lists `_10` before `_2`.
@@ -39,6 +40,9 @@ pub fn expand(inputs: &[String]) -> Result<Sequence, ReadError> {
         if path.is_dir() {
             sequence.append_files(&mut files);
             sequence.append(input, folder(input, path)?)?;
+        } else if path.extension() == Some(OsStr::new("series")) && path.is_file() {
+            sequence.append_files(&mut files);
+            sequence.frames.extend(series(path)?);
         } else if path.exists() {
             files.push(path.to_owned());
         } else if let Some(found) = pattern(input, path)? {
@@ -150,6 +154,19 @@ fn folder(input: &str, folder: &Path) -> Result<Groups, ReadError> {
         }
     }
     Ok(groups)
+}
+
+/// The files that a `.vtk.series` file lists, which is JSON: `{"files": [{"name": "a.vtk", "time": 0}]}`.
+fn series(path: &Path) -> Result<Vec<Frame>, ReadError> {
+    let text = fs::read(path).map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
+    let series: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
+    let files = series.as_ref().and_then(|series| series["files"].as_array()).map_or(&[][..], Vec::as_slice);
+    let frames: Option<Vec<Frame>> =
+        files.iter().map(|file| Some(split(path.with_file_name(file["name"].as_str()?)).1)).collect();
+    frames.filter(|frames| !frames.is_empty()).ok_or_else(|| ReadError::NoFrames {
+        input: show(path),
+        remedy: "it lists none; write it again or give a pattern of the files".into(),
+    })
 }
 
 /// The files that a pattern or glob matches; `None` if it is neither.

@@ -79,6 +79,21 @@ fn single_files_and_real_folders() {
 }
 
 #[test]
+fn a_series_file_lists_its_frames() {
+    let folder = folder_of("series", &["b_2.vtk", "a_7.vtk"]);
+    let list =
+        r#"{"file-series-version": "1.0", "files": [{"name": "b_2.vtk", "time": 0}, {"name": "a_7.vtk", "time": 1}]}"#;
+    folder.write("both.vtk.series", list);
+    let sequence = expand(&[folder.path("both.vtk.series")]).unwrap();
+    assert_eq!(numbers(&sequence), [2, 7]);
+    assert!(sequence.frames.iter().all(|frame| frame.path.is_file()));
+    for broken in ["", "[]", r#"{"files": [{"time": 1}]}"#] {
+        folder.write("broken.vtk.series", broken);
+        assert!(matches!(expand(&[folder.path("broken.vtk.series")]), Err(ReadError::NoFrames { .. })));
+    }
+}
+
+#[test]
 fn nothing_found() {
     let folder = folder_of("nothing", &["a.txt"]);
     for input in ["", "b.vtk", "b_{}.vtk", "*.vtk", "no/such/f_{}.vtk"] {
