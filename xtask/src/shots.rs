@@ -13,24 +13,24 @@ pub struct Shot {
 /// All of them, in order.
 pub const SHOTS: &[Shot] = &[
     Shot {
-        picture: "sphere_drop.png",
+        picture: "drop.png",
         inputs: &["sphere_drop/frame.0014.pos"],
-        camera: Some(("1.8,1.2,2.3", "0.5,0.36,0.5")),
+        camera: Some(("1.12,0.62,1.32", "0.5,0.19,0.5")),
     },
+    Shot { picture: "splash.png", inputs: &["sphere_drop/frame.0020.pos"], camera: None },
     Shot {
         picture: "dam_break.png",
         inputs: &["dam_break_double/ParticleData_Fluid_20.bgeo"],
-        camera: Some(("2.9,2.5,5.4", "0,1.1,0")),
+        camera: Some(("2.2,1.5,4.3", "0,1.2,0")),
     },
     Shot {
         picture: "rigid_coupling.png",
         inputs: &["rigid_coupling/ParticleData_Fluid_22.bgeo"],
-        camera: Some(("2.7,2.3,4.8", "0,0.8,0")),
+        camera: Some(("1.9,1.3,2.9", "0.1,0.4,0")),
     },
-    Shot { picture: "framed_for_you.png", inputs: &["splashsurf/cube_2366_particles.vtk"], camera: None },
     Shot {
-        picture: "jet/frame_{}.png",
+        picture: "jet/frame_####.png",
         inputs: &["jet/ParticleData_Fluid_32.bgeo", "jet/ParticleData_Fluid_42.bgeo", "jet/ParticleData_Fluid_52.bgeo"],
-        camera: Some(("2.0,1.5,2.9", "0,0.4,0")),
+        camera: Some(("1.45,1.25,2.1", "0,0.35,0")),
     },
 ];
