@@ -55,6 +55,6 @@ fn usage_error(error: &clap::Error) -> String {
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
     let lines: Vec<&str> = lines.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
-    let message = lines.join(" ");
+    let message = lines.join(" ").replace(" tip: ", "; ");
     format!("{} (see `limpid --help`)", message.strip_prefix("error: ").unwrap_or(&message))
 }

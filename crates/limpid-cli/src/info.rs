@@ -2,6 +2,7 @@
 
 use crate::console;
 use crate::failure::Failure;
+use crate::number::{short, significant};
 use clap::Args;
 use limpid_io::{ParticleSet, Radius, RadiusSource, ReadError};
 use serde::Serialize;
@@ -96,9 +97,12 @@ impl Info {
     }
 
     fn text(&self, path: &Path) -> String {
-        let triple = |v: [f64; 3]| v.map(|x| format!("{x:.6}")).join(" ");
+        let triple = |v: [f64; 3]| v.map(|x| short(significant(x))).join(" ");
         let bounds = self.bounds.as_ref().map_or("none".into(), |b| format!("{} .. {}", triple(b.min), triple(b.max)));
-        let radius = self.radius.as_ref().map_or("unknown".into(), |r| format!("{} ({})", r.value, r.source));
+        let radius = self
+            .radius
+            .as_ref()
+            .map_or("unknown".into(), |r| format!("{} ({})", short(significant(r.value)), r.source));
         let attributes: Vec<String> =
             self.attributes.iter().map(|a| format!("{} ({})", a.name, a.components)).collect();
         let attributes = if attributes.is_empty() { "none".into() } else { attributes.join(", ") };

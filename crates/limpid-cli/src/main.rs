@@ -5,6 +5,8 @@ mod cli;
 mod console;
 mod failure;
 mod info;
+mod number;
+mod quiet_driver;
 mod render;
 mod write;
 
@@ -13,6 +15,7 @@ use failure::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    quiet_driver::prepare();
     match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

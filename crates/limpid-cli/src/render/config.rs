@@ -3,6 +3,7 @@
 use super::limits::{self, Range};
 use super::options::{ALTERNATIVES, Options};
 use crate::failure::Failure;
+use crate::number::short;
 use clap::{Args, Command};
 use std::fs;
 use std::path::Path;
@@ -45,8 +46,10 @@ fn read(path: &Path) -> Result<Options, Failure> {
     let text = fs::read_to_string(path)
         .map_err(|error| in_file(path, &format!("cannot be read ({error}); check --config")))?;
     toml::from_str(&text).map_err(|error| {
-        let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-        in_file(path, &format!("line {line}: {}", error.message()))
+        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+        let index = before.matches('\n').count();
+        let line = text.lines().nth(index).unwrap_or_default().trim();
+        in_file(path, &format!("line {}, \"{line}\": {}", index + 1, error.message()))
     })
 }
 
@@ -89,7 +92,7 @@ pub fn describe_options(command: Command) -> Command {
 fn as_flag(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
-        Value::Float(number) => limits::short(*number),
+        Value::Float(number) => short(*number),
         Value::Array(values) => values.iter().map(as_flag).collect::<Vec<_>>().join(","),
         value => value.to_string(),
     }

@@ -4,6 +4,7 @@ use super::options::Options;
 use super::progress::Progress;
 use crate::console;
 use crate::failure::Failure;
+use crate::number::{short, significant};
 use glam::DVec3;
 use limpid::Bounds;
 use limpid_io::{Frame, ParticleSet, Radius, RadiusSource};
@@ -78,9 +79,7 @@ impl Survey {
             RadiusSource::File => "from the file",
             RadiusSource::Estimated => "estimated from the spacing",
         };
-        // Digits beyond these mean nothing in an estimate, and f32 files do not have them.
-        let value: f64 = format!("{:.5e}", radius.value).parse().unwrap_or(radius.value);
-        Some(format!("radius {value} ({source})"))
+        Some(format!("radius {} ({source})", short(significant(radius.value))))
     }
 }
 
@@ -100,9 +99,11 @@ fn check_radius(radius_world: f64, extent: Bounds, set: &ParticleSet) -> Result<
     if diagonal == 0.0 || radius_world <= diagonal {
         return Ok(());
     }
-    let estimate = set.estimate_spacing().map(|spacing| format!("; about {:.3e} would fit", 0.5 * spacing));
+    let estimate = set.estimate_spacing().map(|spacing| format!("; {} would fit", short(significant(0.5 * spacing))));
     Err(Failure::usage(format!(
-        "--radius is {radius_world}, but all particles lie within {diagonal:.3e}{}; is it in the files' unit?",
+        "--radius is {}, but all particles lie within {}{}: give it in the files' unit",
+        short(radius_world),
+        short(significant(diagonal)),
         estimate.unwrap_or_default()
     )))
 }
