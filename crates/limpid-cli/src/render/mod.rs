@@ -49,14 +49,15 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let quiet = options.quiet();
     let inputs = options.inputs()?;
     let sequence = limpid_io::expand(inputs)?;
-    for warning in &sequence.warnings {
-        console::warn(warning);
-    }
     let outputs = Outputs::plan(&options, &sequence.frames)?;
     outputs.check()?;
     let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
 
     let survey = Survey::of(&sequence.frames, &options)?;
+    // Only now: a failure so far is one line.
+    for warning in sequence.warnings.iter().chain(&survey.warnings) {
+        console::warn(warning);
+    }
     if let (false, Some(radius)) = (quiet, survey.radius_note()) {
         console::note(&radius);
     }

@@ -57,10 +57,12 @@ impl Outputs {
         }
         let aovs: Vec<(AovKind, &str)> =
             options.aov.iter().flatten().map(|text| parse_aov(text)).collect::<Result<_, _>>()?;
-        let timings = options.timings.as_deref().map(|target| match target {
-            "-" => TimingsTarget::Stdout,
-            path => TimingsTarget::File(path.into()),
-        });
+        let timings = match options.timings.as_deref() {
+            None => None,
+            Some("") => return Err(Failure::usage("--timings=: give a file name, or --timings alone")),
+            Some("-") => Some(TimingsTarget::Stdout),
+            Some(path) => Some(TimingsTarget::File(path.into())),
+        };
         let several = frames.len() > 1;
         let files = frames.iter().enumerate().map(|(index, frame)| {
             // Files without a number are counted, like those of solvers, from 1.

@@ -2,7 +2,6 @@
 
 use super::options::Options;
 use super::progress::Progress;
-use crate::console;
 use crate::failure::Failure;
 use crate::number::{short, significant};
 use glam::DVec3;
@@ -20,6 +19,8 @@ pub struct Survey {
     pub bounds: Option<Bounds>,
     /// Box around all particle centres of all frames.
     pub extent: Option<Bounds>,
+    /// What is odd about the files.
+    pub warnings: Vec<String>,
     /// Radius, from the frame with the most particles, the best to estimate one from; None without particles.
     radius: Option<Radius>,
     /// A single frame, so that it is not read twice.
@@ -31,10 +32,11 @@ impl Survey {
     pub fn of(frames: &[Frame], options: &Options) -> Result<Self, Failure> {
         let (mut bounds, mut extent): (Option<Bounds>, Option<Bounds>) = (None, None);
         let mut largest: Option<ParticleSet> = None;
+        let mut warnings = Vec::new();
         let progress = Progress::new("looking through", frames.len(), options.quiet());
         for frame in frames {
             let set = limpid_io::read(&frame.path)?;
-            warn_about(&set, options);
+            warnings.extend(oddities(&set, options));
             bounds = union(bounds, Bounds::robust(world_positions(&set)));
             extent = union(extent, extent_of(&set));
             if largest.as_ref().is_none_or(|largest| set.len() > largest.len()) {
@@ -49,7 +51,7 @@ impl Survey {
             check_radius(value, extent, set)?;
         }
         let single = Cell::new(largest.filter(|_| frames.len() == 1));
-        Ok(Self { bounds, extent, radius, single })
+        Ok(Self { bounds, extent, warnings, radius, single })
     }
 
     /// The particles of a frame.
@@ -83,14 +85,13 @@ impl Survey {
     }
 }
 
-fn warn_about(set: &ParticleSet, options: &Options) {
-    let path = set.path.display();
-    for warning in &set.warnings {
-        console::warn(&format!("{path}: {warning}"));
+fn oddities(set: &ParticleSet, options: &Options) -> Vec<String> {
+    let mut oddities = set.warnings.clone();
+    let wants_density = options.density_threshold.is_some_and(|threshold| threshold > 0.0);
+    if wants_density && !set.is_empty() && set.attribute("density").is_none() {
+        oddities.push("has no density, so --density-threshold leaves nothing out".into());
     }
-    if options.density_threshold.is_some_and(|threshold| threshold > 0.0) && set.attribute("density").is_none() {
-        console::warn(&format!("{path}: has no density, so --density-threshold leaves nothing out"));
-    }
+    oddities.into_iter().map(|oddity| format!("{}: {oddity}", set.path.display())).collect()
 }
 
 /// Refuses a radius that cannot belong to these particles: most likely it is in another unit.
