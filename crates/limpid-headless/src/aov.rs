@@ -49,7 +49,7 @@ pub struct Image {
     pub size: [u32; 2],
     /// Values per pixel.
     pub channels: usize,
-    /// size[0] * size[1] * channels values.
+    /// `size[0] * size[1] * channels` values.
     pub values: Vec<f32>,
 }
 

@@ -50,12 +50,8 @@ pub fn adapters() -> Vec<AdapterInfo> {
 }
 
 fn ranked() -> Vec<wgpu::Adapter> {
-    // GL only where there is nothing better: merely asking for it makes some drivers print to stderr.
-    let primary = adapters_of(wgpu::Backends::PRIMARY);
-    if primary.is_empty() { adapters_of(wgpu::Backends::SECONDARY) } else { primary }
-}
-
-fn adapters_of(backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
+    // Not GL: its shading language cannot load texels of depth textures.
+    let backends = wgpu::Backends::PRIMARY;
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends,
         ..wgpu::InstanceDescriptor::new_without_display_handle()

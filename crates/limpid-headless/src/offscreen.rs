@@ -188,10 +188,11 @@ impl Offscreen {
             queue.submit([encoder.finish()]);
         }
         let (memory, validation) = guard;
-        for error in [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())].into_iter().flatten() {
-            return Err(Error::Device(one_line(&error.to_string())));
+        let failure = pollster::block_on(validation.pop()).or(pollster::block_on(memory.pop()));
+        match failure {
+            Some(error) => Err(Error::Device(one_line(&error.to_string()))),
+            None => Ok(prepared?),
         }
-        Ok(prepared?)
     }
 
     fn draw_scene(

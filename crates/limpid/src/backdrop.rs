@@ -28,6 +28,8 @@ impl Backdrop {
             entries: &slot_entries(&[Slot::Uniform], wgpu::ShaderStages::FRAGMENT),
         });
         let view = uniform_buffer::<ViewUniform>(device, "backdrop view");
+        // Its own depth orders it: the first thing drawn, and the sky is as far as an empty target.
+        let target = &TargetFormat { depth: target.depth.map(|(f, _)| (f, wgpu::CompareFunction::Always)), ..*target };
         // The frame's group wants settings, of which this shader uses none.
         let settings = uniform_buffer::<SettingsUniform>(device, "no settings");
         let environment = uniform_buffer::<EnvironmentUniform>(device, "backdrop environment");

@@ -29,7 +29,7 @@ impl Environment {
         // Against the light, to one side: the highlights fall on the crests and the water glows.
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
         let extent = (max - min).reject_from(up).length().max((max - min).length() * 0.25).max(f64::MIN_POSITIVE);
-        Self { up, sun, floor: Some(floor), tile: extent / 12.0, center }
+        Self { up, sun, floor: Some(floor), tile: extent / 8.0, center }
     }
 
     /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
@@ -41,7 +41,7 @@ impl Environment {
             sun: self.sun.as_vec3(),
             tile: self.tile as f32,
             east: self.up.any_orthonormal_vector().as_vec3(),
-            tile_fade: 0.0007,
+            tile_fade: 0.003,
             eye_from_center: (eye - self.center).as_vec3(),
             padding: 0.0,
         }

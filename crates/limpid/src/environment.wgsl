@@ -13,27 +13,15 @@ struct Environment {
 
 const SUN_LIGHT: vec3f = vec3f(1.0, 0.94, 0.84);
 
-fn hash(at: vec2f) -> f32 {
-    let p = fract(at * vec2f(0.1031, 0.1030)) ;
-    let q = p + dot(p, p.yx + 33.33);
-    return fract((q.x + q.y) * q.x);
-}
-
-fn value_noise(at: vec2f) -> f32 {
-    let cell = floor(at);
-    let part = smoothstep(vec2f(0.0), vec2f(1.0), at - cell);
-    let bottom = mix(hash(cell), hash(cell + vec2f(1.0, 0.0)), part.x);
-    let top = mix(hash(cell + vec2f(0.0, 1.0)), hash(cell + vec2f(1.0, 1.0)), part.x);
-    return mix(bottom, top, part.y);
-}
-
 fn sky(direction: vec3f) -> vec3f {
     let height = max(dot(direction, environment.up), 0.0);
-    var color = mix(vec3f(0.82, 0.87, 0.91), vec3f(0.16, 0.34, 0.62), pow(height, 0.55));
+    var color = mix(vec3f(0.84, 0.88, 0.91), vec3f(0.20, 0.40, 0.68), sqrt(height));
+    // Wisps of cloud: cheap waves bent by waves.
     let north = cross(environment.up, environment.east);
     let plane = vec2f(dot(direction, environment.east), dot(direction, north)) / (height + 0.25);
-    let cloud = 0.55 * value_noise(plane * 3.0 + 40.0) + 0.3 * value_noise(plane * 6.5 + 70.0) + 0.15 * value_noise(plane * 14.0 + 90.0);
-    color = mix(color, vec3f(1.05), smoothstep(0.5, 0.85, cloud) * smoothstep(0.03, 0.3, height) * 0.75);
+    let bent = plane * vec2f(2.3, 2.9) + 1.4 * sin(plane.yx * vec2f(1.7, 2.1) + vec2f(0.6, 2.2));
+    let cloud = 0.5 + 0.5 * sin(bent.x) * sin(bent.y);
+    color = mix(color, vec3f(1.05), smoothstep(0.45, 1.0, cloud) * smoothstep(0.05, 0.35, height) * 0.8);
     let toward_sun = max(dot(direction, environment.sun), 0.0);
     return color + SUN_LIGHT * (0.25 * pow(toward_sun, 8.0) + 0.6 * pow(toward_sun, 96.0));
 }
@@ -58,7 +46,7 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let north = cross(environment.up, environment.east);
     let tiles = vec2f(dot(at, environment.east), dot(at, north)) / environment.tile;
     let width = spread * distance / environment.tile;
-    let stone = mix(vec3f(0.46, 0.44, 0.42), vec3f(0.60, 0.585, 0.56), checker(tiles, vec2f(width, width / descent)));
+    let stone = mix(vec3f(0.44, 0.43, 0.42), vec3f(0.55, 0.54, 0.525), checker(tiles, vec2f(width, width / descent)));
     let horizon = sky(normalize(direction + descent * environment.up));
     return mix(horizon, stone, exp(-environment.tile_fade * dot(tiles, tiles)));
 }

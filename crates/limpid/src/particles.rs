@@ -30,7 +30,7 @@ impl ParticleSlices<'_> {
     pub fn reference_radius(&self) -> f32 {
         match self.radius {
             Radius::Uniform(radius) => radius,
-            Radius::Each(radii) if radii.is_empty() => 1.0,
+            Radius::Each([]) => 1.0,
             Radius::Each(radii) => {
                 let mut radii = radii.to_vec();
                 let middle = radii.len() / 2;

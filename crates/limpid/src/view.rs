@@ -73,7 +73,8 @@ impl View {
         if self.near <= 0.0 {
             return Err(Error::View("near must be above 0"));
         }
-        if !self.is_perspective() && !(self.far.is_finite() && self.far > self.near) {
+        let finite_far = self.far.is_finite() && self.far > self.near;
+        if !self.is_perspective() && !finite_far {
             return Err(Error::View("an orthographic view needs a finite far beyond near"));
         }
         if self.clip_from_view.x_axis.x == 0.0 || self.clip_from_view.y_axis.y == 0.0 {

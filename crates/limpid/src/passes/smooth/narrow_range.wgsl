@@ -6,7 +6,7 @@
 
 // Half-width of the Gaussian window in standard deviations.
 const REACH: f32 = 2.0;
-const CLEANUP_PX: i32 = 4;
+const CLEANUP_PX: i32 = 2;
 
 struct Side {
     far: f32, // the range of accepted steps in depth on this side; it grows with what it accepts
