@@ -123,7 +123,7 @@ impl Offscreen {
             if run > 0 {
                 upload_ms.push((uploaded - begin).as_secs_f64() * 1e3);
                 frame_ms.push((done - uploaded).as_secs_f64() * 1e3);
-                passes.extend(profiler.map(|mut profiler| profiler.read(&self.gpu.device).1));
+                passes.extend(profiler.map(|mut profiler| profiler.read(&self.gpu.device)));
             }
         }
         let mut medians = vec![PassTime { name: "upload".into(), ms: median(upload_ms) }];

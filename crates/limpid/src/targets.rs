@@ -44,7 +44,6 @@ impl Targets {
         if pixels == 0 || needed > limit || width.max(height) > TILE_PX * 65_535 {
             return Err(Error::Size { width, height, needed, limit });
         }
-        let count = |px: u32| u64::from(width.div_ceil(px)) * u64::from(height.div_ceil(px));
         let thickness_size = thickness_scale.of(size);
         let thickness_texels = u64::from(thickness_size[0]) * u64::from(thickness_size[1]);
         let image = |label, bytes| storage_buffer(device, label, bytes);
@@ -53,8 +52,8 @@ impl Targets {
             thickness_scale,
             thickness_size,
             raw: image("raw nearness", 4 * pixels),
-            covered: image("covered blocks", 4 * count(BLOCK_PX)),
-            tiles: image("tiles", 16 + 4 * count(TILE_PX)),
+            covered: image("covered blocks", 4 * cells(size, BLOCK_PX)),
+            tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
             thickness_sums: image("thickness sums", 4 * pyramid_texels(thickness_size)),
             levels_used: image("thickness levels used", 4),
@@ -63,4 +62,14 @@ impl Targets {
             shaded: image("shaded", 16 * pixels),
         })
     }
+
+    /// Tiles that cover the picture.
+    pub fn tile_count(&self) -> u64 {
+        cells(self.size, TILE_PX)
+    }
+}
+
+/// Squares of `px` pixels that cover an image.
+fn cells(size: [u32; 2], px: u32) -> u64 {
+    u64::from(size[0].div_ceil(px)) * u64::from(size[1].div_ceil(px))
 }

@@ -88,12 +88,13 @@ impl Profiler {
         }
     }
 
-    /// Waits for the submitted frame and returns the time from the first pass's begin to the last one's end, and each
-    /// pass's own, in the order they ran. Starts over for the next frame.
-    pub fn read(&mut self, device: &wgpu::Device) -> (f64, Vec<PassTime>) {
+    /// Waits for the submitted frame and returns the time of each pass in the order they ran, clears and copies before it
+    /// included: from the end of the one before to its own end, so that they add up to the frame. (Some drivers take the
+    /// timestamp at a pass's begin too late.) Starts over for the next frame.
+    pub fn read(&mut self, device: &wgpu::Device) -> Vec<PassTime> {
         let count = 2 * self.names.len();
         if count == 0 {
-            return (0.0, Vec::new());
+            return Vec::new();
         }
         self.readable.map_async(wgpu::MapMode::Read, 0..count as u64 * 8, |_| {});
         let waited = device.poll(wgpu::PollType::wait_indefinitely());
@@ -102,17 +103,16 @@ impl Profiler {
             _ => vec![0; count],
         };
         self.readable.unmap();
-        let ms = |begin: u64, end: u64| end.saturating_sub(begin) as f64 * self.ns_per_tick * 1e-6;
         let mut passes: Vec<PassTime> = Vec::new();
+        let mut end_of_last = ticks[0];
         for (name, ticks) in self.names.drain(..).zip(ticks.chunks_exact(2)) {
-            let time = ms(ticks[0], ticks[1]);
+            let ms = ticks[1].saturating_sub(end_of_last) as f64 * self.ns_per_tick * 1e-6;
+            end_of_last = ticks[1];
             match passes.iter_mut().find(|pass| pass.name == name) {
-                Some(pass) => pass.ms += time,
-                None => passes.push(PassTime { name, ms: time }),
+                Some(pass) => pass.ms += ms,
+                None => passes.push(PassTime { name, ms }),
             }
         }
-        let begin = ticks.iter().copied().min().unwrap_or(0);
-        let end = ticks.iter().copied().max().unwrap_or(0);
-        (ms(begin, end), passes)
+        passes
     }
 }

@@ -28,7 +28,7 @@ impl Tiles {
             targets.covered.as_entire_binding(),
         ];
         let name = "smooth/tiles";
-        recorder.run(name, &self.list, &resources, &Grid::Image(targets.size));
+        recorder.run(name, &self.list, &resources, &Grid::Items(targets.tile_count(), 64));
         recorder.run(name, &self.count, &resources, &Grid::Items(1, 1));
     }
 }

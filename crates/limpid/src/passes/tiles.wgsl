@@ -13,33 +13,44 @@ struct Tiles {
     positions: array<u32>, // x | y << 16, in tiles; order varies, results do not
 }
 
-var<workgroup> fluid_pixels: atomic<u32>;
-
-@compute @workgroup_size(8, 8)
+// One lane for each tile: no barrier, which CPUs pay dearly for.
+@compute @workgroup_size(64)
 fn list_tiles(
-    @builtin(global_invocation_id) pixel: vec3u,
-    @builtin(workgroup_id) tile: vec3u,
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let inside = pixel.x < view.size.x && pixel.y < view.size.y;
-    let index = pixel.y * view.size.x + pixel.x;
+    let item = item_index(group, groups, lane, 64u);
+    let across = (view.size.x + 7u) / 8u;
+    let tile = vec2u(item % across, item / across);
+    let low = tile * 8u;
+    let high = min(low + 8u, view.size);
+    if low.y >= view.size.y {
+        return;
+    }
     // Blocks that the near plane cuts all over were not splatted further.
-    let block = pixel.xy / u32(BLOCK);
+    let block = low / u32(BLOCK);
     let cut = nearness_of(view.near);
-    if inside && covered[block.y * ((view.size.x + u32(BLOCK) - 1u) / u32(BLOCK)) + block.x] >= bitcast<u32>(cut) {
-        raw[index] = cut;
+    let is_cut = covered[block.y * ((view.size.x + u32(BLOCK) - 1u) / u32(BLOCK)) + block.x] >= bitcast<u32>(cut);
+    var nearest = 0.0;
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            let index = y * view.size.x + x;
+            if is_cut {
+                raw[index] = cut;
+            }
+            nearest = max(nearest, raw[index]);
+        }
     }
-    if inside && raw[index] > 0.0 {
-        atomicAdd(&fluid_pixels, 1u);
-    }
-    workgroupBarrier();
-    let occupied = atomicLoad(&fluid_pixels) > 0u;
-    if occupied && lane == 0u {
+    if nearest > 0.0 {
         tiles.positions[atomicAdd(&tiles.count, 1u)] = tile.x | (tile.y << 16u);
+        return;
     }
-    if inside && !occupied {
-        ping[index] = 0.0;
-        pong[index] = 0.0;
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            ping[y * view.size.x + x] = 0.0;
+            pong[y * view.size.x + x] = 0.0;
+        }
     }
 }
 
