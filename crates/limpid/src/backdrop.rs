@@ -5,7 +5,7 @@ use crate::gpu::{Slot, bind, slot_entries, uniform_buffer};
 use crate::passes::module;
 use crate::renderer::{SettingsUniform, TargetFormat, frame_layout};
 use crate::view::ViewUniform;
-use crate::{Environment, View};
+use crate::{Environment, Scale, View};
 use glam::DVec3;
 
 /// Draws an [`Environment`] where a host has no scene of its own. Writes reversed depth: build the view with
@@ -51,7 +51,7 @@ impl Backdrop {
         size: [u32; 2],
         environment: &Environment,
     ) {
-        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, DVec3::ZERO)));
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
         queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&environment.uniform(view)));
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.frame_group, &[]);

@@ -1,4 +1,5 @@
 // What every kernel knows of the frame: the camera, the settings, and the image conventions. Bind group 0.
+// "Pixels" are those of the fluid's own images, which may be coarser than the host's picture.
 //
 // Rays: the point at view depth z seen through pixel position px (pixel centres at +0.5) is origin + z direction, with
 // direction.z = -1: the ray's parameter is the depth, in perspective and in orthographic views alike.
@@ -34,6 +35,9 @@ struct Settings {
     min_thickness: f32, // r
     has_scene_depth: u32,
     background: u32, // shade.wgsl's BACKGROUND_*
+    picture_size: vec2u, // the host's pixels
+    fluid_scale: f32, // of them along a pixel of the fluid's images
+    padding: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

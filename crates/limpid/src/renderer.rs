@@ -2,9 +2,9 @@
 
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, uniform_buffer};
 use crate::passes::{
-    Composite, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, level_count,
+    Composite, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
 };
-use crate::targets::Targets;
+use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
 use crate::{Environment, Error, Particles, Settings, View};
 use bytemuck::{Pod, Zeroable};
@@ -114,6 +114,9 @@ pub(crate) struct SettingsUniform {
     pub min_thickness: f32,
     pub has_scene_depth: u32,
     pub background: u32,
+    pub picture_size: [u32; 2],
+    pub fluid_scale: f32,
+    pub padding: f32,
 }
 
 /// Counts of the thickness sums per r: fine enough that rounding vanishes, coarse enough for half a million r.
@@ -130,6 +133,7 @@ pub struct Renderer {
     smooth: Smooth,
     normals: Normals,
     shade: Shade,
+    upsample: Upsample,
     composite: Composite,
     nothing: Nothing,
     targets: Option<Targets>,
@@ -141,7 +145,7 @@ pub struct Renderer {
 struct Prepared {
     frame_group: wgpu::BindGroup,
     images: wgpu::BindGroup,
-    smoothed: wgpu::Buffer,
+    nearness: wgpu::Buffer,
 }
 
 /// Stand-ins for a scene's textures where there is no scene.
@@ -190,6 +194,7 @@ impl Renderer {
             smooth: Smooth::new(device, &layout),
             normals: Normals::new(device, &layout),
             shade: Shade::new(device, &layout),
+            upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
             nothing: Nothing::new(device),
             targets: None,
@@ -227,17 +232,17 @@ impl Renderer {
             color: frame.scene.color.unwrap_or(&self.nothing.color),
             depth: frame.scene.depth.unwrap_or(&self.nothing.depth),
         };
-        let fits = |t: &Targets| t.size == frame.size && t.thickness_scale == settings.thickness_scale;
-        if !self.targets.as_ref().is_some_and(fits) {
-            self.prepared = None;
-            self.targets = None; // before the new ones: they may not fit beside each other
-        }
         let targets = match self.targets.take() {
-            Some(targets) => targets,
-            None => Targets::new(device, frame.size, settings.thickness_scale)?,
+            Some(targets) if targets.fit(frame.size, settings) => targets,
+            old => {
+                // Freed before the new ones are made: they may not fit beside each other.
+                self.prepared = None;
+                drop(old);
+                Targets::new(device, frame.size, settings.filter_scale, settings.thickness_scale)?
+            }
         };
 
-        let view = frame.view.uniform(frame.size, particles.origin);
+        let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
         let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
@@ -252,9 +257,13 @@ impl Renderer {
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, &targets);
         self.shade.encode(recorder, smoothed, &scene, &targets);
+        let fluid =
+            FluidImages { raw: &targets.raw, nearness: smoothed, surface: &targets.surface, shaded: &targets.shaded };
+        let picture = self.upsample.encode(recorder, fluid, scene.depth, &targets);
 
-        let images = self.composite.bind(device, smoothed, &targets.shaded);
-        self.prepared = Some(Prepared { frame_group, images, smoothed: smoothed.clone() });
+        let images = self.composite.bind(device, picture.nearness, picture.shaded);
+        let nearness = picture.nearness.clone();
+        self.prepared = Some(Prepared { frame_group, images, nearness });
         self.targets = Some(targets);
         Ok(())
     }
@@ -270,17 +279,26 @@ impl Renderer {
     /// The buffers of the last prepared frame, for reading back; None before the first.
     pub fn buffers(&self) -> Option<FrameBuffers<'_>> {
         let targets = self.targets.as_ref()?;
-        Some(FrameBuffers {
-            raw_nearness: &targets.raw,
-            nearness: &self.prepared.as_ref()?.smoothed,
-            surface: &targets.surface,
-            shaded: &targets.shaded,
+        let nearness = &self.prepared.as_ref()?.nearness;
+        Some(match &targets.picture {
+            None => FrameBuffers {
+                raw_nearness: &targets.raw,
+                nearness,
+                surface: &targets.surface,
+                shaded: &targets.shaded,
+            },
+            Some(picture) => FrameBuffers {
+                raw_nearness: &picture.raw,
+                nearness,
+                surface: &picture.surface,
+                shaded: &picture.shaded,
+            },
         })
     }
 }
 
-/// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is 0 there is no fluid, and the others
-/// hold anything.
+/// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is not
+/// positive there is no fluid, and the others hold anything.
 ///
 /// Nearness is 1 / depth in perspective views and 1 - depth / far in orthographic ones ([`View::depth_of`]).
 #[derive(Clone, Copy)]
@@ -298,6 +316,7 @@ pub struct FrameBuffers<'a> {
 fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
     let Frame { particles, settings, scene, .. } = *frame;
     let smoothing = &settings.smoothing;
+    let fluid_scale = settings.filter_scale.divisor() as f32;
     SettingsUniform {
         radius: particles.reference_radius,
         splat_scale: settings.splat_scale,
@@ -305,15 +324,18 @@ fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
         thickness_unit: particles.reference_radius / THICKNESS_COUNTS,
         thickness_size: targets.thickness_size,
         thickness_levels: level_count(targets.thickness_size),
-        thickness_divisor: targets.thickness_scale.divisor() as f32,
+        thickness_divisor: settings.thickness_scale.divisor() as f32 / fluid_scale,
         // Variances add up over iterations.
         strength: smoothing.strength / (smoothing.iterations as f32).sqrt(),
-        max_radius_px: smoothing.max_radius_px as f32,
+        max_radius_px: smoothing.max_radius_px as f32 / fluid_scale,
         range: smoothing.range,
         clamp: smoothing.clamp,
         normal_step: settings.normal_step,
         min_thickness: settings.min_thickness,
         has_scene_depth: u32::from(scene.depth.is_some()),
         background: u32::from(scene.color.is_some()),
+        picture_size: frame.size,
+        fluid_scale,
+        padding: 0.0,
     }
 }

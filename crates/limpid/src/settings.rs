@@ -18,6 +18,9 @@ pub struct Settings {
     pub min_thickness: f32,
     /// How the surface is smoothed.
     pub smoothing: Smoothing,
+    /// Resolution at which the fluid is splatted, smoothed and shaded, default full; the shaded colour is blended up to
+    /// the picture's (van der Laan 2009, section 3.5.1).
+    pub filter_scale: Scale,
     /// Neighbouring pixels farther apart than this many r belong to different sheets when normals are taken;
     /// default 3.
     pub normal_step: f32,
@@ -33,6 +36,7 @@ impl Default for Settings {
             thickness_scale: Scale::Half,
             min_thickness: 0.0,
             smoothing: Smoothing::default(),
+            filter_scale: Scale::Full,
             normal_step: 3.0,
             optics: Optics::default(),
         }

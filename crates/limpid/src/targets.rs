@@ -2,7 +2,7 @@
 
 use crate::gpu::storage_buffer;
 use crate::passes::pyramid_texels;
-use crate::{Error, Scale};
+use crate::{Error, Scale, Settings};
 
 /// `frame.wgsl`'s `BLOCK`.
 const BLOCK_PX: u32 = 32;
@@ -12,6 +12,10 @@ const TILE_PX: u32 = 8;
 const LARGEST_PIXEL: u64 = 16;
 
 pub(crate) struct Targets {
+    /// The host's pixels.
+    pub picture_size: [u32; 2],
+    pub filter_scale: Scale,
+    /// The fluid's own pixels: the size of all images below but `thickness` and `picture`.
     pub size: [u32; 2],
     pub thickness_scale: Scale,
     pub thickness_size: [u32; 2],
@@ -32,22 +36,50 @@ pub(crate) struct Targets {
     pub surface: wgpu::Buffer,
     /// vec4: linear premultiplied colour.
     pub shaded: wgpu::Buffer,
+    /// The same at the picture's resolution, where that is another.
+    pub picture: Option<PictureImages>,
+}
+
+/// Images that only exist where the fluid's resolution is not the picture's.
+pub(crate) struct PictureImages {
+    pub raw: wgpu::Buffer,
+    pub nearness: wgpu::Buffer,
+    pub surface: wgpu::Buffer,
+    pub shaded: wgpu::Buffer,
+}
+
+/// The images that a frame ends in.
+#[derive(Clone, Copy)]
+pub(crate) struct FluidImages<'a> {
+    pub raw: &'a wgpu::Buffer,
+    pub nearness: &'a wgpu::Buffer,
+    pub surface: &'a wgpu::Buffer,
+    pub shaded: &'a wgpu::Buffer,
 }
 
 impl Targets {
-    pub fn new(device: &wgpu::Device, size: [u32; 2], thickness_scale: Scale) -> Result<Self, Error> {
+    pub fn new(
+        device: &wgpu::Device,
+        picture_size: [u32; 2],
+        filter_scale: Scale,
+        thickness_scale: Scale,
+    ) -> Result<Self, Error> {
         let limits = device.limits();
         let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        let [width, height] = size;
-        let pixels = u64::from(width) * u64::from(height);
-        let needed = pixels * LARGEST_PIXEL;
-        if pixels == 0 || needed > limit || width.max(height) > TILE_PX * 65_535 {
+        let [width, height] = picture_size;
+        let picture_pixels = u64::from(width) * u64::from(height);
+        let needed = picture_pixels * LARGEST_PIXEL;
+        if picture_pixels == 0 || needed > limit || width.max(height) > TILE_PX * 65_535 {
             return Err(Error::Size { width, height, needed, limit });
         }
-        let thickness_size = thickness_scale.of(size);
+        let size = filter_scale.of(picture_size);
+        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let thickness_size = thickness_scale.of(picture_size);
         let thickness_texels = u64::from(thickness_size[0]) * u64::from(thickness_size[1]);
         let image = |label, bytes| storage_buffer(device, label, bytes);
         Ok(Self {
+            picture_size,
+            filter_scale,
             size,
             thickness_scale,
             thickness_size,
@@ -60,10 +92,23 @@ impl Targets {
             thickness: [image("thickness a", 4 * thickness_texels), image("thickness b", 4 * thickness_texels)],
             surface: image("surface", 16 * pixels),
             shaded: image("shaded", 16 * pixels),
+            picture: (filter_scale != Scale::Full).then(|| PictureImages {
+                raw: image("picture raw nearness", 4 * picture_pixels),
+                nearness: image("picture nearness", 4 * picture_pixels),
+                surface: image("picture surface", 16 * picture_pixels),
+                shaded: image("picture shaded", 16 * picture_pixels),
+            }),
         })
     }
 
-    /// Tiles that cover the picture.
+    /// Whether these serve a frame of that size and those settings.
+    pub fn fit(&self, picture_size: [u32; 2], settings: &Settings) -> bool {
+        self.picture_size == picture_size
+            && self.filter_scale == settings.filter_scale
+            && self.thickness_scale == settings.thickness_scale
+    }
+
+    /// Tiles that cover the fluid's images.
     pub fn tile_count(&self) -> u64 {
         cells(self.size, TILE_PX)
     }

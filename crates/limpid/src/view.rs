@@ -1,6 +1,6 @@
 //! The camera: a right-handed world, a view space that looks down -z, depths that are positive view distances.
 
-use crate::Error;
+use crate::{Error, Scale};
 use bytemuck::{Pod, Zeroable};
 use glam::dcamera::rh::{proj::directx, view};
 use glam::{DMat4, DVec3, Mat4};
@@ -83,12 +83,14 @@ impl View {
         Ok(())
     }
 
-    /// What the shaders know of the view: `view.wgsl`'s `View`. `origin` is where the particles' local space starts.
-    pub(crate) fn uniform(&self, size: [u32; 2], origin: DVec3) -> ViewUniform {
+    /// What the shaders know of the view: `frame.wgsl`'s `View`. `origin` is where the particles' local space starts.
+    /// A picture of `picture_size` is seen in pixels of `scale` x `scale` of its own, rounded up.
+    pub(crate) fn uniform(&self, picture_size: [u32; 2], scale: Scale, origin: DVec3) -> ViewUniform {
         let clip = self.clip_from_view;
         let perspective = self.is_perspective();
         // A point at depth z is seen through pixel (x, y) at ray_origin + ray_slope z; each is affine in the pixel.
-        let ndc_per_px = [2.0 / f64::from(size[0]), -2.0 / f64::from(size[1])];
+        let side = f64::from(scale.divisor());
+        let ndc_per_px = [2.0 * side / f64::from(picture_size[0]), -2.0 * side / f64::from(picture_size[1])];
         let shift = if perspective { clip.z_axis } else { -clip.w_axis };
         let px_step = [ndc_per_px[0] / clip.x_axis.x, ndc_per_px[1] / clip.y_axis.y];
         let px_zero = [(-1.0 + shift.x) / clip.x_axis.x, (1.0 + shift.y) / clip.y_axis.y];
@@ -98,14 +100,14 @@ impl View {
             px_zero: px_zero.map(|v| v as f32),
             px_step: px_step.map(|v| v as f32),
             depth_row: [clip.z_axis.z as f32, clip.w_axis.z as f32, clip.z_axis.w as f32, clip.w_axis.w as f32],
-            size,
+            size: scale.of(picture_size),
             near: self.near as f32,
             far: if perspective { 0.0 } else { self.far as f32 },
         }
     }
 }
 
-/// `view.wgsl`'s `View`.
+/// `frame.wgsl`'s `View`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct ViewUniform {

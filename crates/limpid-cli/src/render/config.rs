@@ -103,13 +103,14 @@ mod tests {
     use super::*;
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 11] = [
+    const NOT_NUMBERS: [&str; 12] = [
         "input",
         "output",
         "size",
         "up",
         "filter",
         "quality",
+        "filter-scale",
         "thickness-scale",
         "background",
         "aov",

@@ -82,6 +82,9 @@ pub struct Options {
     /// Preset of the resolutions below; each can be overridden
     #[arg(long, value_name = "NAME", value_parser = choice::<Quality>(), help_heading = "Quality")]
     pub quality: Option<Named<Quality>>,
+    /// Pixels along one side of a pixel of the fluid, which is splatted, smoothed and shaded at that resolution
+    #[arg(long, value_name = "N", value_parser = choice::<Scale>(), help_heading = "Quality")]
+    pub filter_scale: Option<Named<Scale>>,
     /// Pixels along one side of a texel of the thickness image
     #[arg(long, value_name = "N", value_parser = choice::<Scale>(), help_heading = "Quality")]
     pub thickness_scale: Option<Named<Scale>>,
@@ -155,12 +158,17 @@ impl Options {
     /// What the choices of a layer (quality, filter) imply for other options.
     pub fn implied(&self) -> Self {
         let smoothing = self.filter.map(|filter| Self::of_smoothing(&Smoothing::of(filter.0))).unwrap_or_default();
-        let thickness_scale = self.quality.map(|quality| match quality.0 {
-            Quality::Draft => Scale::Quarter,
-            Quality::Standard => Settings::default().thickness_scale,
-            Quality::High => Scale::Full,
+        let standard = Settings::default();
+        let scales = self.quality.map(|quality| match quality.0 {
+            Quality::Draft => (Scale::Half, Scale::Quarter),
+            Quality::Standard => (standard.filter_scale, standard.thickness_scale),
+            Quality::High => (Scale::Full, Scale::Full),
         });
-        Self { thickness_scale: thickness_scale.map(Named), ..smoothing }
+        Self {
+            filter_scale: scales.map(|(filter, _)| Named(filter)),
+            thickness_scale: scales.map(|(_, thickness)| Named(thickness)),
+            ..smoothing
+        }
     }
 
     fn of_settings(settings: &Settings) -> Self {
@@ -172,6 +180,7 @@ impl Options {
         Self {
             splat_scale: Some(widen(settings.splat_scale)),
             density_threshold: Some(widen(settings.density_threshold)),
+            filter_scale: Some(Named(settings.filter_scale)),
             thickness_scale: Some(Named(settings.thickness_scale)),
             min_thickness: Some(widen(settings.min_thickness)),
             normal_step: Some(widen(settings.normal_step)),
@@ -203,6 +212,7 @@ impl Options {
         let mut settings = Settings::default();
         set(&mut settings.splat_scale, self.splat_scale);
         set(&mut settings.density_threshold, self.density_threshold);
+        settings.filter_scale = self.filter_scale.map_or(settings.filter_scale, |scale| scale.0);
         settings.thickness_scale = self.thickness_scale.map_or(settings.thickness_scale, |scale| scale.0);
         set(&mut settings.min_thickness, self.min_thickness);
         set(&mut settings.normal_step, self.normal_step);

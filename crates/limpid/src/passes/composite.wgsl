@@ -10,10 +10,10 @@ struct Fragment {
 
 @fragment
 fn composite(@builtin(position) position: vec4f) -> Fragment {
-    let pixel = min(vec2u(position.xy), view.size - 1u);
-    let index = pixel.y * view.size.x + pixel.x;
-    let near = nearness[index];
-    if near <= 0.0 {
+    let pixel = min(vec2u(position.xy), settings.picture_size - 1u);
+    let index = pixel.y * settings.picture_size.x + pixel.x;
+    let near = abs(nearness[index]);
+    if near == 0.0 {
         discard;
     }
     let color = shaded[index];

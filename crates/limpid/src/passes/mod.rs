@@ -7,6 +7,7 @@ mod smooth;
 mod splat;
 mod thickness;
 mod tiles;
+mod upsample;
 
 pub(crate) use composite::Composite;
 pub(crate) use normals::Normals;
@@ -15,6 +16,7 @@ pub(crate) use smooth::Smooth;
 pub(crate) use splat::Splat;
 pub(crate) use thickness::{Thickness, level_count, pyramid_texels};
 pub(crate) use tiles::Tiles;
+pub(crate) use upsample::Upsample;
 
 /// What `frame.wgsl` and the parts of a pass say, as one shader module.
 macro_rules! module {

@@ -51,7 +51,7 @@ pub(crate) struct Shade {
 
 impl Shade {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "shade", "../frame.wgsl", "tile_pixel.wgsl", "../environment.wgsl", "shade.wgsl");
+        let module = module!(device, "shade", "../frame.wgsl", "tile_pixel.wgsl", "../environment.wgsl", "../scene_depth.wgsl", "shade.wgsl");
         let slots =
             [Slot::Read, Slot::Uniform, Slot::Uniform, Slot::Read, Slot::Read, Slot::Write, Slot::Color, Slot::Depth];
         Self {

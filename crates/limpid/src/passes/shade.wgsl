@@ -28,21 +28,12 @@ fn fresnel(cosine: f32, index: f32) -> f32 {
     return 0.5 * a * a * (1.0 + b * b);
 }
 
-// The scene's depth at a pixel position; beyond everything where there is none.
-fn scene_depth_at(px: vec2f) -> f32 {
-    if settings.has_scene_depth == 0u {
-        return 3.4e38;
-    }
-    let pixel = vec2u(clamp(px, vec2f(0.0), vec2f(view.size) - 1.0));
-    let depth = depth_from_host(textureLoad(scene_depth, pixel, 0));
-    return select(3.4e38, depth, depth > 0.0);
-}
-
 // Bilinear by hand: works for every float format, filterable or not.
 fn scene_color_at(px: vec2f) -> vec3f {
-    let at = clamp(px - 0.5, vec2f(0.0), vec2f(view.size) - 1.0);
+    let size = textureDimensions(scene_color);
+    let at = clamp(px * settings.fluid_scale - 0.5, vec2f(0.0), vec2f(size) - 1.0);
     let low = vec2u(at);
-    let high = min(low + 1u, view.size - 1u);
+    let high = min(low + 1u, size - 1u);
     let part = at - floor(at);
     let top = mix(textureLoad(scene_color, low, 0), textureLoad(scene_color, vec2u(high.x, low.y), 0), part.x);
     let bottom = mix(textureLoad(scene_color, vec2u(low.x, high.y), 0), textureLoad(scene_color, high, 0), part.x);
@@ -78,7 +69,8 @@ fn shade(
         return;
     }
     let depth = depth_of(near);
-    if depth >= scene_depth_at(px) {
+    // At a lower resolution upsample.wgsl decides, by the picture's own pixels.
+    if settings.fluid_scale == 1.0 && depth >= scene_depth_at(px) {
         return;
     }
     let ray = pixel_ray(px);

@@ -15,7 +15,8 @@ struct LargeSplats {
 // Pixels in the bounding box above which a splat is large.
 const LARGE_PX: i32 = 1024;
 
-fn splat_pixel(ball: Ball, pixel: vec2i) {
+// Whether the ball covers the pixel's centre; if so, it is drawn there.
+fn splat_pixel(ball: Ball, pixel: vec2i) -> bool {
     let index = u32(pixel.y) * view.size.x + u32(pixel.x);
     let chord = ball_chord(ball, pixel_ray(vec2f(pixel) + 0.5));
     if chord.length > 0.0 {
@@ -23,6 +24,17 @@ fn splat_pixel(ball: Ball, pixel: vec2i) {
         if atomicLoad(&nearness[index]) < bits {
             atomicMax(&nearness[index], bits);
         }
+    }
+    return chord.length > 0.0;
+}
+
+// At a lower resolution than the picture's a drop that falls between pixel centres still shows, as one pixel.
+fn splat_speck(ball: Ball) {
+    let depth = -ball.center.z;
+    let px = (ball.center.xy / select(1.0, depth, is_perspective()) - view.px_zero) / view.px_step;
+    if depth - ball.radius > view.near && all(px >= vec2f(0.0)) && all(px < vec2f(view.size)) {
+        let pixel = vec2u(px);
+        atomicMax(&nearness[pixel.y * view.size.x + pixel.x], bitcast<u32>(nearness_of(depth - ball.radius)));
     }
 }
 
@@ -46,10 +58,14 @@ fn splat_small(
         large.indices[atomicAdd(&large.count, 1u)] = index;
         return;
     }
+    var shows = false;
     for (var y = box.min.y; y <= box.max.y; y++) {
         for (var x = box.min.x; x <= box.max.x; x++) {
-            splat_pixel(ball, vec2i(x, y));
+            shows |= splat_pixel(ball, vec2i(x, y));
         }
+    }
+    if !shows && settings.fluid_scale > 1.0 {
+        splat_speck(ball);
     }
 }
 
@@ -118,7 +134,7 @@ fn splat_large(
             for (var y = block_min.y + in_block.y; y <= high.y; y += 8) {
                 for (var x = block_min.x + in_block.x; x <= high.x; x += 8) {
                     if x >= low.x && y >= low.y {
-                        splat_pixel(ball, vec2i(x, y));
+                        _ = splat_pixel(ball, vec2i(x, y));
                     }
                 }
             }

@@ -27,7 +27,7 @@ pub(crate) struct Thickness {
 impl Thickness {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let splat =
-            module!(device, "thickness", "../frame.wgsl", "../ball.wgsl", "thickness_levels.wgsl", "thickness.wgsl");
+            module!(device, "thickness", "../frame.wgsl", "../ball.wgsl", "thickness_levels.wgsl", "../scene_depth.wgsl", "thickness.wgsl");
         let blur = module!(device, "thickness blur", "../frame.wgsl", "thickness_levels.wgsl", "thickness_blur.wgsl");
         let blur_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Read];
         let blur_kernel = |entry| Kernel::new(device, frame, &blur, entry, &blur_slots);

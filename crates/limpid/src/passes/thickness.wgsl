@@ -12,16 +12,6 @@ const MAX_TEXELS: f32 = 20.0;
 // Sums stop growing here, far below overflow, and read as this: half a million r of liquid.
 const FULL: u32 = 0x80000000u;
 
-// Where the scene's surface is, as seen through a pixel position.
-fn scene_depth_at(px: vec2f) -> f32 {
-    if settings.has_scene_depth == 0u {
-        return 3.4e38;
-    }
-    let pixel = min(vec2u(px), view.size - 1u);
-    let depth = depth_from_host(textureLoad(scene_depth, pixel, 0));
-    return select(3.4e38, depth, depth > 0.0);
-}
-
 @compute @workgroup_size(64)
 fn splat(
     @builtin(workgroup_id) group: vec3u,

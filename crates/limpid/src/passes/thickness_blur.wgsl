@@ -22,11 +22,9 @@ fn collapse(@builtin(global_invocation_id) texel: vec3u) {
         return;
     }
     var total = 0.0;
-    let used = levels_used;
-    for (var level = 0u; level < settings.thickness_levels; level++) {
-        if (used & (1u << level)) == 0u {
-            continue;
-        }
+    // Mostly there is only the finest level.
+    let levels = 32u - countLeadingZeros(levels_used);
+    for (var level = 0u; level < levels; level++) {
         let start = level_start(level);
         let size = level_size(level);
         let at = (vec2f(texel.xy) + 0.5) / f32(1u << level) - 0.5;
