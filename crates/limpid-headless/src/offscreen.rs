@@ -160,6 +160,9 @@ impl Offscreen {
         let (scene, depth, picture) = (view_of(&images.scene), view_of(&images.depth), view_of(&images.picture));
         let mut encoder = device.create_command_encoder(&Default::default());
 
+        if shot.background == Background::Scene {
+            self.renderer.cast_shadow(device, queue, &mut encoder, particles, &shot.environment, &shot.settings.optics);
+        }
         self.draw_scene(&mut encoder, shot, &scene, &depth);
         encoder.copy_texture_to_texture(
             images.scene.as_image_copy(),
@@ -215,7 +218,9 @@ impl Offscreen {
             ..Default::default()
         });
         if shot.background == Background::Scene {
-            self.backdrop.draw(&self.gpu.queue, &mut pass, &shot.view, shot.size, &shot.environment);
+            let Gpu { device, queue, .. } = &self.gpu;
+            let shadow = self.renderer.floor_shadow();
+            self.backdrop.draw(device, queue, &mut pass, &shot.view, shot.size, &shot.environment, shadow.as_ref());
         }
     }
 

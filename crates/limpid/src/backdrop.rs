@@ -1,9 +1,10 @@
 //! The procedural surroundings drawn as a scene: `backdrop.wgsl`.
 
 use crate::environment::EnvironmentUniform;
-use crate::gpu::{Slot, bind, slot_entries, uniform_buffer};
+use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::module;
 use crate::renderer::{SettingsUniform, TargetFormat, frame_layout};
+use crate::shadow::FloorShadow;
 use crate::view::ViewUniform;
 use crate::{Environment, Scale, View};
 use glam::DVec3;
@@ -13,7 +14,8 @@ use glam::DVec3;
 pub struct Backdrop {
     pipeline: wgpu::RenderPipeline,
     frame_group: wgpu::BindGroup,
-    environment_group: wgpu::BindGroup,
+    layout: wgpu::BindGroupLayout,
+    no_shadow: wgpu::Buffer,
     view: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
@@ -25,7 +27,7 @@ impl Backdrop {
         let frame = frame_layout(device);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("backdrop"),
-            entries: &slot_entries(&[Slot::Uniform], wgpu::ShaderStages::FRAGMENT),
+            entries: &slot_entries(&[Slot::Uniform, Slot::Read], wgpu::ShaderStages::FRAGMENT),
         });
         let view = uniform_buffer::<ViewUniform>(device, "backdrop view");
         // Its own depth orders it: the first thing drawn, and the sky is as far as an empty target.
@@ -36,26 +38,35 @@ impl Backdrop {
         Self {
             pipeline: target.fullscreen_pipeline(device, &module, "backdrop", &[Some(&frame), Some(&layout)], None),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
-            environment_group: bind(device, &layout, &[environment.as_entire_binding()]),
+            no_shadow: storage_buffer(device, "no shadow", 4),
+            layout,
             view,
             environment,
         }
     }
 
-    /// Draws into the host's pass. Its uniforms are written to the queue at once: one view per submission.
+    /// Draws into the host's pass, with the fluid's shadow if there is one. Its uniforms are written to the queue at once: one view per submission.
     pub fn draw(
         &self,
+        device: &wgpu::Device,
         queue: &wgpu::Queue,
         pass: &mut wgpu::RenderPass<'_>,
         view: &View,
         size: [u32; 2],
         environment: &Environment,
+        shadow: Option<&FloorShadow<'_>>,
     ) {
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
-        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&environment.uniform(view)));
+        queue.write_buffer(
+            &self.environment,
+            0,
+            bytemuck::bytes_of(&environment.uniform(view, shadow.map(|s| &s.tint))),
+        );
+        let map = shadow.map_or(&self.no_shadow, |shadow| shadow.map);
+        let group = bind(device, &self.layout, &[self.environment.as_entire_binding(), map.as_entire_binding()]);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.frame_group, &[]);
-        pass.set_bind_group(1, &self.environment_group, &[]);
+        pass.set_bind_group(1, &group, &[]);
         pass.draw(0..3, 0..1);
     }
 }

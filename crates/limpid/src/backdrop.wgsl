@@ -1,6 +1,7 @@
 // The surroundings themselves, as a host would draw its scene.
 
 @group(1) @binding(0) var<uniform> environment: Environment;
+@group(1) @binding(1) var<storage, read> shadow: array<f32>;
 
 struct Fragment {
     @location(0) color: vec4f,

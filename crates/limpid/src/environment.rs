@@ -1,6 +1,7 @@
 //! The surroundings that light the fluid: a procedural floor, sky and sun that flatter water with no input at all.
 
 use crate::View;
+use crate::shadow::SHADOW_TEXELS;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
@@ -13,10 +14,10 @@ pub struct Environment {
     pub sun: DVec3,
     /// The floor's plane: a point p is on it where dot(p, up) is this. None: sky below the horizon too.
     pub floor: Option<f64>,
-    /// Edge of one floor tile, world units, above 0.
-    pub tile: f64,
-    /// What the floor lies under: the middle of the picture's subject.
+    /// The middle of the picture's subject.
     pub center: DVec3,
+    /// Its half-size, world units, above 0: the floor's tiles and the shadow map are in proportion to it.
+    pub extent: f64,
 }
 
 impl Environment {
@@ -28,24 +29,48 @@ impl Environment {
         let left = up.cross(away);
         // Against the light, to one side: the highlights fall on the crests and the water glows.
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
-        let extent = (max - min).reject_from(up).length().max((max - min).length() * 0.25).max(f64::MIN_POSITIVE);
-        Self { up, sun, floor: Some(floor), tile: extent / 8.0, center }
+        let extent = (0.5 * (max - min).length()).max(f64::MIN_POSITIVE);
+        Self { up, sun, floor: Some(floor), center, extent }
     }
 
     /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
-    pub(crate) fn uniform(&self, view: &View) -> EnvironmentUniform {
+    pub(crate) fn uniform(&self, view: &View, shadow: Option<&ShadowTint>) -> EnvironmentUniform {
         let eye = view.eye();
+        let sun_east = self.sun.any_orthonormal_vector();
         EnvironmentUniform {
             up: self.up.as_vec3(),
             eye_height: self.floor.map_or(f64::from(f32::MIN), |floor| eye.dot(self.up) - floor) as f32,
             sun: self.sun.as_vec3(),
-            tile: self.tile as f32,
+            tile: (0.25 * self.extent) as f32,
             east: self.up.any_orthonormal_vector().as_vec3(),
-            tile_fade: 0.003,
+            tile_fade: 0.002,
             eye_from_center: (eye - self.center).as_vec3(),
+            extent: self.extent as f32,
+            sun_east: sun_east.as_vec3(),
+            shadow_texels: shadow.map_or(0, |_| SHADOW_TEXELS),
+            sun_north: self.sun.cross(sun_east).as_vec3(),
+            shadow_radius: shadow.map_or(1.0, |tint| tint.radius),
+            shadow_absorption: shadow.map_or(Vec3::ZERO, |tint| tint.absorption.into()),
             padding: 0.0,
         }
     }
+
+    /// The sun's view of the subject.
+    pub(crate) fn sun_view(&self) -> View {
+        let eye = self.center + 2.0 * self.extent * self.sun;
+        let up = self.sun.cross(self.sun.any_orthonormal_vector());
+        let size = 2.0 * self.extent;
+        View::orthographic(eye, self.center, up, size, 1.0, 0.01 * size, 2.0 * size)
+    }
+}
+
+/// What the liquid does to the light that falls through it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadowTint {
+    /// Per world unit.
+    pub absorption: [f32; 3],
+    /// r, world units.
+    pub radius: f32,
 }
 
 /// `environment.wgsl`'s `Environment`.
@@ -59,5 +84,11 @@ pub(crate) struct EnvironmentUniform {
     pub east: Vec3,
     pub tile_fade: f32,
     pub eye_from_center: Vec3,
+    pub extent: f32,
+    pub sun_east: Vec3,
+    pub shadow_texels: u32,
+    pub sun_north: Vec3,
+    pub shadow_radius: f32,
+    pub shadow_absorption: Vec3,
     pub padding: f32,
 }

@@ -72,7 +72,7 @@ impl Framing {
         let away = (front + 0.5 * right + 0.42 * up).normalize();
         let side = up.cross(away).normalize();
         let above = away.cross(side);
-        let (tan_y, tan_x) = ((0.5 * fov_y).tan() * 0.88, (0.5 * fov_y).tan() * aspect * 0.88);
+        let (tan_y, tan_x) = ((0.5 * fov_y).tan() * 0.95, (0.5 * fov_y).tan() * aspect * 0.95);
         // The nearest distance at which every corner is inside the view's four planes.
         let needed = |corner: DVec3| {
             let d = corner - target;

@@ -13,6 +13,7 @@ mod particles;
 mod passes;
 mod renderer;
 mod settings;
+mod shadow;
 mod targets;
 mod view;
 
@@ -25,4 +26,5 @@ pub use gpu::{PassTime, Profiler};
 pub use particles::{ParticleSlices, Particles, Radius};
 pub use renderer::{Frame, FrameBuffers, Renderer, Scene, TargetFormat};
 pub use settings::{Absorption, Filter, Optics, Scale, Settings, Smoothing};
+pub use shadow::FloorShadow;
 pub use view::View;

@@ -1,12 +1,14 @@
 //! The frame: one road from particles to the host's target.
 
+use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, uniform_buffer};
 use crate::passes::{
     Composite, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
 };
+use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
-use crate::{Environment, Error, Particles, Settings, View};
+use crate::{Environment, Error, Optics, Particles, Settings, View};
 use bytemuck::{Pod, Zeroable};
 
 /// The host's render target that [`Renderer::composite`] draws into.
@@ -120,7 +122,7 @@ pub(crate) struct SettingsUniform {
 }
 
 /// Counts of the thickness sums per r: fine enough that rounding vanishes, coarse enough for half a million r.
-const THICKNESS_COUNTS: f32 = 4096.0;
+pub(crate) const THICKNESS_COUNTS: f32 = 4096.0;
 
 /// Draws fluids on one device for one kind of target. Keeps its buffers from frame to frame.
 pub struct Renderer {
@@ -135,6 +137,9 @@ pub struct Renderer {
     shade: Shade,
     upsample: Upsample,
     composite: Composite,
+    shadow: Shadow,
+    /// Of the shadow cast for the frame to come.
+    shadow_tint: Option<ShadowTint>,
     nothing: Nothing,
     targets: Option<Targets>,
     prepared: Option<Prepared>,
@@ -196,6 +201,8 @@ impl Renderer {
             shade: Shade::new(device, &layout),
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
+            shadow: Shadow::new(device, &layout),
+            shadow_tint: None,
             nothing: Nothing::new(device),
             targets: None,
             prepared: None,
@@ -212,6 +219,30 @@ impl Renderer {
     /// The profiler at work, for the host's own passes.
     pub fn profiler(&mut self) -> Option<&mut Profiler> {
         self.profiler.as_mut()
+    }
+
+    /// Records the shadow that the fluid casts on the built-in surroundings. Call it before the frame's
+    /// [`crate::Backdrop`] is drawn, which takes [`Self::floor_shadow`], and before [`Self::prepare`], whose reflections
+    /// then show it too.
+    pub fn cast_shadow(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        particles: &Particles,
+        environment: &Environment,
+        optics: &Optics,
+    ) {
+        let recorder =
+            &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
+        self.shadow.encode(recorder, queue, &self.thickness, particles, environment, &self.nothing.depth);
+        let absorption = optics.absorption.per_world(particles.reference_radius);
+        self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius });
+    }
+
+    /// The shadow that was cast for the frame to come; None after [`Self::prepare`].
+    pub fn floor_shadow(&self) -> Option<FloorShadow<'_>> {
+        Some(FloorShadow { map: self.shadow.map(), tint: self.shadow_tint? })
     }
 
     /// Records everything up to the shaded fluid. Buffers follow the frame's size and settings by themselves.
@@ -246,17 +277,19 @@ impl Renderer {
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
         let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
-        self.shade.write(queue, &optics, &frame.environment.uniform(frame.view));
+        let shadow = self.shadow_tint.take();
+        self.shade.write(queue, &optics, &frame.environment.uniform(frame.view, shadow.as_ref()));
         let frame_group =
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
 
         let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
         self.splat.encode(recorder, &particles.chunks, &targets);
         self.tiles.encode(recorder, &targets);
-        self.thickness.encode(recorder, &particles.chunks, scene.depth, &targets);
+        self.thickness.splat(recorder, "splat-thickness", &particles.chunks, scene.depth, &targets.thickness);
+        self.thickness.blur(recorder, &targets);
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, &targets);
-        self.shade.encode(recorder, smoothed, &scene, &targets);
+        self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), &targets);
         let fluid =
             FluidImages { raw: &targets.raw, nearness: smoothed, surface: &targets.surface, shaded: &targets.shaded };
         let picture = self.upsample.encode(recorder, fluid, scene.depth, &targets);
@@ -322,8 +355,8 @@ fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
         splat_scale: settings.splat_scale,
         density_threshold: if particles.has_density() { settings.density_threshold } else { 0.0 },
         thickness_unit: particles.reference_radius / THICKNESS_COUNTS,
-        thickness_size: targets.thickness_size,
-        thickness_levels: level_count(targets.thickness_size),
+        thickness_size: targets.thickness.size,
+        thickness_levels: level_count(targets.thickness.size),
         thickness_divisor: settings.thickness_scale.divisor() as f32 / fluid_scale,
         // Variances add up over iterations.
         strength: smoothing.strength / (smoothing.iterations as f32).sqrt(),

@@ -132,8 +132,8 @@ impl Default for Optics {
     fn default() -> Self {
         Self {
             refractive_index: 1.333,
-            absorption: Absorption::PerRadius([0.050, 0.018, 0.009]),
-            color: [0.004, 0.030, 0.045],
+            absorption: Absorption::PerRadius([0.045, 0.015, 0.0075]),
+            color: [0.007, 0.048, 0.085],
             refraction: 0.5,
             specular: 1.0,
             shininess: 300.0,
@@ -177,6 +177,16 @@ impl Settings {
         within("refraction", optics.refraction, 0.0..=4.0, "from 0 to 4")?;
         within("specular", optics.specular, 0.0..=4.0, "from 0 to 4")?;
         within("shininess", optics.shininess, 1.0..=4096.0, "from 1 to 4096")
+    }
+}
+
+impl Absorption {
+    /// Coefficients per world unit for particles of this radius.
+    pub(crate) fn per_world(self, radius: f32) -> [f32; 3] {
+        match self {
+            Self::PerRadius(rgb) => rgb.map(|k| k / radius),
+            Self::PerWorld(rgb) => rgb,
+        }
     }
 }
 

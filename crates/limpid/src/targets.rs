@@ -18,7 +18,6 @@ pub(crate) struct Targets {
     /// The fluid's own pixels: the size of all images below but `thickness` and `picture`.
     pub size: [u32; 2],
     pub thickness_scale: Scale,
-    pub thickness_size: [u32; 2],
     /// f32 nearness (frame.wgsl) after the splat.
     pub raw: wgpu::Buffer,
     /// u32 nearness bits per block that all its pixels reach.
@@ -27,17 +26,38 @@ pub(crate) struct Targets {
     pub tiles: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
-    /// u32 fixed-point thickness pyramid.
-    pub thickness_sums: wgpu::Buffer,
-    pub levels_used: wgpu::Buffer,
-    /// f32 thickness in world units: the first is the result.
-    pub thickness: [wgpu::Buffer; 2],
+    pub thickness: ThicknessImages,
     /// vec4: view-space normal, thickness in world units.
     pub surface: wgpu::Buffer,
     /// vec4: linear premultiplied colour.
     pub shaded: wgpu::Buffer,
     /// The same at the picture's resolution, where that is another.
     pub picture: Option<PictureImages>,
+}
+
+/// Thickness of one view.
+pub(crate) struct ThicknessImages {
+    /// Texels of the finest level and of the result.
+    pub size: [u32; 2],
+    /// u32 fixed-point sums, a pyramid.
+    pub sums: wgpu::Buffer,
+    /// u32: which levels hold something.
+    pub levels_used: wgpu::Buffer,
+    /// f32 thickness in world units: the first is the result.
+    pub images: [wgpu::Buffer; 2],
+}
+
+impl ThicknessImages {
+    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let texels = u64::from(size[0]) * u64::from(size[1]);
+        let image = |label, words: u64| storage_buffer(device, label, 4 * words);
+        Self {
+            size,
+            sums: image("thickness sums", pyramid_texels(size)),
+            levels_used: image("thickness levels used", 1),
+            images: [image("thickness a", texels), image("thickness b", texels)],
+        }
+    }
 }
 
 /// Images that only exist where the fluid's resolution is not the picture's.
@@ -74,22 +94,17 @@ impl Targets {
         }
         let size = filter_scale.of(picture_size);
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let thickness_size = thickness_scale.of(picture_size);
-        let thickness_texels = u64::from(thickness_size[0]) * u64::from(thickness_size[1]);
         let image = |label, bytes| storage_buffer(device, label, bytes);
         Ok(Self {
             picture_size,
             filter_scale,
             size,
             thickness_scale,
-            thickness_size,
             raw: image("raw nearness", 4 * pixels),
             covered: image("covered blocks", 4 * cells(size, BLOCK_PX)),
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
-            thickness_sums: image("thickness sums", 4 * pyramid_texels(thickness_size)),
-            levels_used: image("thickness levels used", 4),
-            thickness: [image("thickness a", 4 * thickness_texels), image("thickness b", 4 * thickness_texels)],
+            thickness: ThicknessImages::new(device, thickness_scale.of(picture_size)),
             surface: image("surface", 16 * pixels),
             shaded: image("shaded", 16 * pixels),
             picture: (filter_scale != Scale::Full).then(|| PictureImages {

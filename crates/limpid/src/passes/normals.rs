@@ -21,7 +21,7 @@ impl Normals {
         let resources = [
             targets.tiles.as_entire_binding(),
             smoothed.as_entire_binding(),
-            targets.thickness[0].as_entire_binding(),
+            targets.thickness.images[0].as_entire_binding(),
             targets.surface.as_entire_binding(),
         ];
         recorder.run("normals", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));

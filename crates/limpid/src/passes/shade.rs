@@ -3,7 +3,7 @@
 use super::module;
 use crate::environment::EnvironmentUniform;
 use crate::gpu::{Grid, Kernel, Recorder, Slot, uniform_buffer};
-use crate::settings::{Absorption, Optics};
+use crate::settings::Optics;
 use crate::targets::Targets;
 use bytemuck::{Pod, Zeroable};
 
@@ -23,10 +23,7 @@ pub(crate) struct OpticsUniform {
 impl OpticsUniform {
     pub fn new(optics: &Optics, radius: f32) -> Self {
         Self {
-            absorption: match optics.absorption {
-                Absorption::PerRadius(rgb) => rgb.map(|k| k / radius),
-                Absorption::PerWorld(rgb) => rgb,
-            },
+            absorption: optics.absorption.per_world(radius),
             refractive_index: optics.refractive_index,
             color: optics.color,
             refraction: optics.refraction,
@@ -51,9 +48,26 @@ pub(crate) struct Shade {
 
 impl Shade {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "shade", "../frame.wgsl", "tile_pixel.wgsl", "../environment.wgsl", "../scene_depth.wgsl", "shade.wgsl");
-        let slots =
-            [Slot::Read, Slot::Uniform, Slot::Uniform, Slot::Read, Slot::Read, Slot::Write, Slot::Color, Slot::Depth];
+        let module = module!(
+            device,
+            "shade",
+            "../frame.wgsl",
+            "tile_pixel.wgsl",
+            "../environment.wgsl",
+            "../scene_depth.wgsl",
+            "shade.wgsl"
+        );
+        let slots = [
+            Slot::Read,
+            Slot::Uniform,
+            Slot::Uniform,
+            Slot::Read,
+            Slot::Read,
+            Slot::Write,
+            Slot::Color,
+            Slot::Depth,
+            Slot::Read,
+        ];
         Self {
             kernel: Kernel::new(device, frame, &module, "shade", &slots),
             optics: uniform_buffer::<OpticsUniform>(device, "optics"),
@@ -72,6 +86,7 @@ impl Shade {
         recorder: &mut Recorder<'_>,
         smoothed: &wgpu::Buffer,
         scene: &SceneViews<'_>,
+        shadow: &wgpu::Buffer,
         targets: &Targets,
     ) {
         let resources = [
@@ -83,6 +98,7 @@ impl Shade {
             targets.shaded.as_entire_binding(),
             wgpu::BindingResource::TextureView(scene.color),
             wgpu::BindingResource::TextureView(scene.depth),
+            shadow.as_entire_binding(),
         ];
         recorder.run("shade", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));
     }

@@ -17,6 +17,7 @@ struct Optics {
 @group(1) @binding(5) var<storage, read_write> shaded: array<vec4f>;
 @group(1) @binding(6) var scene_color: texture_2d<f32>;
 @group(1) @binding(7) var scene_depth: texture_depth_2d;
+@group(1) @binding(8) var<storage, read> shadow: array<f32>;
 
 const BACKGROUND_NONE: u32 = 0u;
 

@@ -1,9 +1,9 @@
-//! Thickness: `thickness.wgsl` and `thickness_blur.wgsl`.
+//! Thickness: `thickness.wgsl`, `thickness_collapse.wgsl` and `thickness_blur.wgsl`.
 
 use super::module;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::particles::Chunk;
-use crate::targets::Targets;
+use crate::targets::{Targets, ThicknessImages};
 
 /// Levels of the pyramid over a finest level of `size`: until a level is at most 16 texels wide and high.
 pub(crate) fn level_count(size: [u32; 2]) -> u32 {
@@ -26,11 +26,19 @@ pub(crate) struct Thickness {
 
 impl Thickness {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let splat =
-            module!(device, "thickness", "../frame.wgsl", "../ball.wgsl", "thickness_levels.wgsl", "../scene_depth.wgsl", "thickness.wgsl");
-        let blur = module!(device, "thickness blur", "../frame.wgsl", "thickness_levels.wgsl", "thickness_blur.wgsl");
-        let blur_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Read];
-        let blur_kernel = |entry| Kernel::new(device, frame, &blur, entry, &blur_slots);
+        let splat = module!(
+            device,
+            "thickness",
+            "../frame.wgsl",
+            "../ball.wgsl",
+            "thickness_levels.wgsl",
+            "../scene_depth.wgsl",
+            "thickness.wgsl"
+        );
+        let collapse =
+            module!(device, "thickness collapse", "../frame.wgsl", "thickness_levels.wgsl", "thickness_collapse.wgsl");
+        let blur = module!(device, "thickness blur", "../frame.wgsl", "thickness_blur.wgsl");
+        let images = [Slot::Read, Slot::Read, Slot::Write];
         Self {
             splat: Kernel::new(
                 device,
@@ -39,44 +47,47 @@ impl Thickness {
                 "splat",
                 &[Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Depth],
             ),
-            collapse: blur_kernel("collapse"),
-            blur_x: blur_kernel("blur_x"),
-            blur_y: blur_kernel("blur_y"),
+            collapse: Kernel::new(device, frame, &collapse, "collapse", &images),
+            blur_x: Kernel::new(device, frame, &blur, "blur_x", &images),
+            blur_y: Kernel::new(device, frame, &blur, "blur_y", &images),
         }
     }
 
-    /// Writes the blurred thickness into `targets.thickness[0]`.
-    pub fn encode(
+    /// Sums the chords of all particles and writes the thickness, not blurred, into the first of `thickness.images`.
+    pub fn splat(
         &self,
         recorder: &mut Recorder<'_>,
+        name: &str,
         particles: &[Chunk],
         scene_depth: &wgpu::TextureView,
-        targets: &Targets,
+        thickness: &ThicknessImages,
     ) {
-        recorder.clear(&targets.thickness_sums);
-        recorder.clear(&targets.levels_used);
+        recorder.clear(&thickness.sums);
+        recorder.clear(&thickness.levels_used);
         for chunk in particles {
             let resources = [
                 chunk.positions.as_entire_binding(),
                 chunk.densities.as_entire_binding(),
-                targets.thickness_sums.as_entire_binding(),
-                targets.levels_used.as_entire_binding(),
+                thickness.sums.as_entire_binding(),
+                thickness.levels_used.as_entire_binding(),
                 wgpu::BindingResource::TextureView(scene_depth),
             ];
-            recorder.run("splat-thickness", &self.splat, &resources, &Grid::Items(chunk.count, 64));
+            recorder.run(name, &self.splat, &resources, &Grid::Items(chunk.count, 64));
         }
-        let [first, second] = &targets.thickness;
-        for (kernel, input, output) in
-            [(&self.collapse, second, first), (&self.blur_x, first, second), (&self.blur_y, second, first)]
-        {
-            let resources = [
-                targets.thickness_sums.as_entire_binding(),
-                targets.levels_used.as_entire_binding(),
-                input.as_entire_binding(),
-                output.as_entire_binding(),
-                targets.raw.as_entire_binding(),
-            ];
-            recorder.run("thickness-blur", kernel, &resources, &Grid::Image(targets.thickness_size));
+        let resources = [
+            thickness.sums.as_entire_binding(),
+            thickness.levels_used.as_entire_binding(),
+            thickness.images[0].as_entire_binding(),
+        ];
+        recorder.run(name, &self.collapse, &resources, &Grid::Image(thickness.size));
+    }
+
+    /// Blurs the first of `targets.thickness.images` within the fluid.
+    pub fn blur(&self, recorder: &mut Recorder<'_>, targets: &Targets) {
+        let [first, second] = &targets.thickness.images;
+        for (kernel, input, output) in [(&self.blur_x, first, second), (&self.blur_y, second, first)] {
+            let resources = [targets.raw.as_entire_binding(), input.as_entire_binding(), output.as_entire_binding()];
+            recorder.run("thickness-blur", kernel, &resources, &Grid::Image(targets.thickness.size));
         }
     }
 }
