@@ -2,7 +2,7 @@
 
 use crate::readback::read_words;
 use crate::{Aov, Background, Error, Gpu, Picture, Shot, Timings};
-use limpid::{Backdrop, Display, Frame, Particles, PassTime, Profiler, Renderer, Scene, TargetFormat};
+use limpid::{Backdrop, BackdropFrame, Display, Frame, Particles, PassTime, Profiler, Renderer, Scene, TargetFormat};
 use std::time::Instant;
 
 /// Linear light: the scene, then the fluid over it.
@@ -218,9 +218,14 @@ impl Offscreen {
             ..Default::default()
         });
         if shot.background == Background::Scene {
-            let Gpu { device, queue, .. } = &self.gpu;
             let shadow = self.renderer.floor_shadow();
-            self.backdrop.draw(device, queue, &mut pass, &shot.view, shot.size, &shot.environment, shadow.as_ref());
+            let frame = BackdropFrame {
+                view: &shot.view,
+                size: shot.size,
+                environment: &shot.environment,
+                shadow: shadow.as_ref(),
+            };
+            self.backdrop.draw(&self.gpu.device, &self.gpu.queue, &mut pass, &frame);
         }
     }
 

@@ -9,6 +9,19 @@ use crate::view::ViewUniform;
 use crate::{Environment, Scale, View};
 use glam::DVec3;
 
+/// One picture of the surroundings.
+#[derive(Clone, Copy)]
+pub struct BackdropFrame<'a> {
+    /// The camera.
+    pub view: &'a View,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// What there is to see.
+    pub environment: &'a Environment,
+    /// The fluid's shadow on the floor, if there is one.
+    pub shadow: Option<&'a FloorShadow<'a>>,
+}
+
 /// Draws an [`Environment`] where a host has no scene of its own. Writes reversed depth: build the view with
 /// [`View::perspective`] or [`View::orthographic`] and compare with `Greater`.
 pub struct Backdrop {
@@ -45,17 +58,15 @@ impl Backdrop {
         }
     }
 
-    /// Draws into the host's pass, with the fluid's shadow if there is one. Its uniforms are written to the queue at once: one view per submission.
+    /// Draws into the host's pass. Its uniforms are written to the queue at once: one view per submission.
     pub fn draw(
         &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         pass: &mut wgpu::RenderPass<'_>,
-        view: &View,
-        size: [u32; 2],
-        environment: &Environment,
-        shadow: Option<&FloorShadow<'_>>,
+        frame: &BackdropFrame<'_>,
     ) {
+        let BackdropFrame { view, size, environment, shadow } = *frame;
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
         queue.write_buffer(
             &self.environment,

@@ -17,7 +17,7 @@ mod shadow;
 mod targets;
 mod view;
 
-pub use backdrop::Backdrop;
+pub use backdrop::{Backdrop, BackdropFrame};
 pub use display::{Display, ToneMap};
 pub use environment::Environment;
 pub use error::Error;
