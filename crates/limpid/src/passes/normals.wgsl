@@ -14,11 +14,14 @@ fn nearness_at(at: vec2i) -> f32 {
 // Slope of the nearness per pixel along an axis. Neighbours within the step of the centre are the same sheet: the central
 // difference where both are, else the difference to the nearer in depth, else none (one lonely pixel faces the eye).
 fn nearness_slope(at: vec2i, axis: vec2i, center: f32) -> f32 {
-    let ahead = nearness_at(at + axis) - center;
-    let behind = center - nearness_at(at - axis);
+    let next = nearness_at(at + axis);
+    let last = nearness_at(at - axis);
+    let ahead = next - center;
+    let behind = center - last;
     let limit = settings.normal_step * settings.radius / depth_slope(center);
-    let ahead_is_sheet = abs(ahead) <= limit;
-    let behind_is_sheet = abs(behind) <= limit;
+    // The background is no sheet, even where the camera is less than the step away.
+    let ahead_is_sheet = next > 0.0 && abs(ahead) <= limit;
+    let behind_is_sheet = last > 0.0 && abs(behind) <= limit;
     if ahead_is_sheet && behind_is_sheet {
         return 0.5 * (ahead + behind);
     }

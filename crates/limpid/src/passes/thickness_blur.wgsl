@@ -8,6 +8,19 @@
 const SIGMA: f32 = 0.75;
 const TAPS: i32 = 8; // each side, over two standard deviations
 
+// The surface in a texel: the nearest of its pixels, since rims and thin sheets cover some of them only.
+fn nearest_in(texel: vec2u) -> f32 {
+    let low = vec2u(vec2f(texel) * settings.thickness_divisor);
+    let high = min(vec2u(ceil(vec2f(texel + 1u) * settings.thickness_divisor)), view.size);
+    var nearest = 0.0;
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            nearest = max(nearest, raw[y * view.size.x + x]);
+        }
+    }
+    return nearest;
+}
+
 // One axis of a Gaussian whose width follows the depth of the surface there; texels without liquid have no say.
 fn blur(texel: vec2u, axis: vec2i) {
     if any(texel >= settings.thickness_size) {
@@ -15,8 +28,7 @@ fn blur(texel: vec2u, axis: vec2i) {
     }
     let index = texel.y * settings.thickness_size.x + texel.x;
     let center = input[index];
-    let pixel = min(vec2u((vec2f(texel) + 0.5) * settings.thickness_divisor), view.size - 1u);
-    let nearness = raw[pixel.y * view.size.x + pixel.x];
+    let nearness = nearest_in(texel);
     if center <= 0.0 || nearness <= 0.0 {
         output[index] = center;
         return;

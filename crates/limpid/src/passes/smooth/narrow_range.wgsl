@@ -18,12 +18,14 @@ struct Sample {
     rejected: bool,
 }
 
-// A sample nearer than the range belongs to something in front; one farther counts as a little behind the centre.
-fn take(side: ptr<function, Side>, step: f32) -> Sample {
+// A sample nearer than the range belongs to something in front; one farther counts as a little behind the centre, and so
+// does the background, even where the camera is less than the range away.
+fn take(side: ptr<function, Side>, center: f32, sample: f32, slope: f32) -> Sample {
+    let step = (center - sample) * slope;
     if step < (*side).near {
         return Sample(0.0, true);
     }
-    if step > (*side).far {
+    if sample <= 0.0 || step > (*side).far {
         return Sample(settings.clamp * settings.radius, false);
     }
     let range = settings.range * settings.radius;
@@ -78,8 +80,8 @@ fn filter_axis(pixel: TilePixel, axis: vec2i) {
         if !inside(at_a) || !inside(at_b) {
             continue;
         }
-        let a = take(&ahead, (center - nearness_at(at_a)) * slope);
-        let b = take(&behind, (center - nearness_at(at_b)) * slope);
+        let a = take(&ahead, center, nearness_at(at_a), slope);
+        let b = take(&behind, center, nearness_at(at_b), slope);
         if !a.rejected && !b.rejected {
             sum += weight * (a.step + b.step);
             weights += 2.0 * weight;
@@ -136,8 +138,8 @@ fn narrow_range_cleanup(
             }
             var ahead = start_side();
             var behind = start_side();
-            let a = take(&ahead, (center - nearness_at(at_a)) * slope);
-            let b = take(&behind, (center - nearness_at(at_b)) * slope);
+            let a = take(&ahead, center, nearness_at(at_a), slope);
+            let b = take(&behind, center, nearness_at(at_b), slope);
             if !a.rejected && !b.rejected {
                 let weight = exp(-0.5 * f32(x * x + y * y) / (sigma * sigma));
                 sum += weight * (a.step + b.step);
