@@ -1,6 +1,6 @@
 //! Buffers beside the picture.
 
-use limpid::{FrameBuffers, View};
+use limpid::{Filter, FrameBuffers, Settings, Smoothing, View};
 
 /// A buffer that can be read back beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -9,25 +9,50 @@ pub enum Aov {
     RawDepth,
     /// Positive view depth after the filter, +infinity where there is no fluid.
     Depth,
+    /// Depth of liquid along the ray before the blur, world units.
+    RawThickness,
     /// Depth of liquid along the ray, world units.
     Thickness,
+    /// View-space unit normal before the filter.
+    RawNormal,
     /// View-space unit normal.
     Normal,
+    /// Lambert's brightness of a clay model of the splats, lit from over the viewer's shoulder, 0 to 1.
+    RawClay,
+    /// The same of the smoothed surface.
+    Clay,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
 }
 
+/// Towards the lamp that lights clay, view space.
+const LAMP: [f32; 3] = [-0.36, 0.48, 0.8];
+
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 5] = [Self::RawDepth, Self::Depth, Self::Thickness, Self::Normal, Self::Color];
+    pub const ALL: [Self; 9] = [
+        Self::RawDepth,
+        Self::Depth,
+        Self::RawThickness,
+        Self::Thickness,
+        Self::RawNormal,
+        Self::Normal,
+        Self::RawClay,
+        Self::Clay,
+        Self::Color,
+    ];
 
     /// Its name on the command line: "raw-depth", "depth", ...
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::RawDepth => "raw-depth",
             Self::Depth => "depth",
+            Self::RawThickness => "raw-thickness",
             Self::Thickness => "thickness",
+            Self::RawNormal => "raw-normal",
             Self::Normal => "normal",
+            Self::RawClay => "raw-clay",
+            Self::Clay => "clay",
             Self::Color => "color",
         }
     }
@@ -35,11 +60,52 @@ impl Aov {
     /// Values per pixel.
     pub fn channels(self) -> usize {
         match self {
-            Self::RawDepth | Self::Depth | Self::Thickness => 1,
-            Self::Normal => 3,
+            Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness | Self::RawClay | Self::Clay => 1,
+            Self::RawNormal | Self::Normal => 3,
             Self::Color => 4,
         }
     }
+
+    /// Whether it is of a frame of its own, without filter and blur.
+    pub(crate) fn is_unsmoothed(self) -> bool {
+        matches!(self, Self::RawThickness | Self::RawNormal | Self::RawClay)
+    }
+
+    /// The GPU buffer that holds it, and its 4-byte words per pixel.
+    pub(crate) fn source<'a>(self, buffers: &FrameBuffers<'a>) -> (&'a wgpu::Buffer, usize) {
+        match self {
+            Self::RawDepth => (buffers.raw_nearness, 1),
+            Self::Depth => (buffers.nearness, 1),
+            Self::Color => (buffers.shaded, 4),
+            _ => (buffers.surface, 4),
+        }
+    }
+
+    /// The image of what its buffer holds; `nearness` says where there is fluid.
+    pub(crate) fn image(self, size: [u32; 2], words: &[f32], nearness: &[f32], view: &View) -> Image {
+        let values = match self {
+            Self::RawDepth | Self::Depth => words.iter().map(|nearness| view.depth_of(*nearness)).collect(),
+            Self::RawThickness | Self::Thickness => inside(words, nearness, |pixel| [pixel[3]]),
+            Self::RawNormal | Self::Normal => inside(words, nearness, |pixel| [pixel[0], pixel[1], pixel[2]]),
+            Self::RawClay | Self::Clay => {
+                inside(words, nearness, |n| [(LAMP[0] * n[0] + LAMP[1] * n[1] + LAMP[2] * n[2]).max(0.0)])
+            }
+            Self::Color => inside(words, nearness, |pixel| *pixel),
+        };
+        Image { size, channels: self.channels(), values }
+    }
+}
+
+/// The same look without filter and blur.
+pub(crate) fn unsmoothed(settings: &Settings) -> Settings {
+    Settings { smoothing: Smoothing::of(Filter::None), thickness_blur: false, ..*settings }
+}
+
+/// The wanted part of each pixel, 0 where there is no fluid.
+fn inside<const N: usize>(words: &[f32], nearness: &[f32], part: impl Fn(&[f32; 4]) -> [f32; N]) -> Vec<f32> {
+    let (pixels, _) = words.as_chunks::<4>();
+    let value = |(pixel, nearness): (&[f32; 4], &f32)| if *nearness > 0.0 { part(pixel) } else { [0.0; N] };
+    pixels.iter().zip(nearness).flat_map(value).collect()
 }
 
 /// Rows of float32 pixels, row 0 at the top, channels interleaved.
@@ -51,34 +117,4 @@ pub struct Image {
     pub channels: usize,
     /// `size[0] * size[1] * channels` values.
     pub values: Vec<f32>,
-}
-
-impl Aov {
-    /// The GPU buffer that holds it, and its 4-byte words per pixel.
-    pub(crate) fn source<'a>(self, buffers: &FrameBuffers<'a>) -> (&'a wgpu::Buffer, usize) {
-        match self {
-            Self::RawDepth => (buffers.raw_nearness, 1),
-            Self::Depth => (buffers.nearness, 1),
-            Self::Thickness | Self::Normal => (buffers.surface, 4),
-            Self::Color => (buffers.shaded, 4),
-        }
-    }
-
-    /// The image of what its buffer holds; `nearness` says where there is fluid.
-    pub(crate) fn image(self, size: [u32; 2], words: &[f32], nearness: &[f32], view: &View) -> Image {
-        let values = match self {
-            Self::RawDepth | Self::Depth => words.iter().map(|nearness| view.depth_of(*nearness)).collect(),
-            Self::Thickness => inside(words, nearness, |pixel| [pixel[3]]),
-            Self::Normal => inside(words, nearness, |pixel| [pixel[0], pixel[1], pixel[2]]),
-            Self::Color => inside(words, nearness, |pixel| *pixel),
-        };
-        Image { size, channels: self.channels(), values }
-    }
-}
-
-/// The wanted part of each pixel, 0 where there is no fluid.
-fn inside<const N: usize>(words: &[f32], nearness: &[f32], part: impl Fn(&[f32; 4]) -> [f32; N]) -> Vec<f32> {
-    let (pixels, _) = words.as_chunks::<4>();
-    let value = |(pixel, nearness): (&[f32; 4], &f32)| if *nearness > 0.0 { part(pixel) } else { [0.0; N] };
-    pixels.iter().zip(nearness).flat_map(value).collect()
 }

@@ -5,6 +5,7 @@ mod gpu;
 mod offscreen;
 mod readback;
 mod shot;
+mod show;
 
 pub use aov::{Aov, Image};
 pub use gpu::{AdapterInfo, Gpu, adapters};

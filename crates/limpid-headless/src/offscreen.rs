@@ -1,7 +1,6 @@
 //! A whole picture, off screen: the scene, the fluid in it, the display transform, everything read back.
 
-use crate::readback::read_words;
-use crate::{Aov, Background, Error, Gpu, Picture, Shot, Timings};
+use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, aov, readback};
 use limpid::{Backdrop, BackdropFrame, Display, Frame, Particles, PassTime, Profiler, Renderer, Scene, TargetFormat};
 use std::time::Instant;
 
@@ -98,7 +97,16 @@ impl Offscreen {
     pub fn render(&mut self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
         let particles = self.upload(shot)?;
         self.submit(shot, &particles)?;
-        self.read(shot, aovs)
+        let rgba = self.read_picture()?;
+        let (unsmoothed, smoothed): (Vec<Aov>, Vec<Aov>) = aovs.iter().partition(|aov| aov.is_unsmoothed());
+        let mut images = self.read_images(shot, &smoothed)?;
+        if !unsmoothed.is_empty() {
+            let settings = aov::unsmoothed(&shot.settings);
+            self.submit(&Shot { settings, ..*shot }, &particles)?;
+            images.extend(self.read_images(shot, &unsmoothed)?);
+        }
+        let image = |aov: &Aov| images.iter().find(|(kind, _)| kind == aov).map(|(_, image)| image.clone());
+        Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().filter_map(image).collect() })
     }
 
     /// Renders the shot `runs` times after a warm-up and reports the GPU's time, without reading anything back.
@@ -262,24 +270,26 @@ impl Offscreen {
         self.display.draw(device, queue, &mut pass, picture, shot.exposure, shot.background.tone_map());
     }
 
-    fn read(&self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
-        let Gpu { device, queue, .. } = &self.gpu;
-        let (Some(images), Some(buffers)) = (&self.images, self.renderer.buffers()) else {
-            unreachable!("a frame was submitted")
-        };
-        let rgba = crate::readback::read_texture(device, queue, &images.shown)?;
+    fn read_picture(&self) -> Result<Vec<u8>, Error> {
+        let Some(images) = &self.images else { return Ok(Vec::new()) };
+        readback::read_texture(&self.gpu.device, &self.gpu.queue, &images.shown)
+    }
+
+    fn read_images(&self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Vec<(Aov, Image)>, Error> {
+        let Some(buffers) = self.renderer.buffers().filter(|_| !aovs.is_empty()) else { return Ok(Vec::new()) };
         let pixels = shot.size[0] as usize * shot.size[1] as usize;
-        let words = |buffer, per_pixel| read_words(device, queue, buffer, pixels * per_pixel);
-        let nearness = if aovs.is_empty() { Vec::new() } else { words(buffers.nearness, 1)? };
+        let words =
+            |buffer, per_pixel| readback::read_words(&self.gpu.device, &self.gpu.queue, buffer, pixels * per_pixel);
+        let nearness = words(buffers.nearness, 1)?;
         let image = |aov: &Aov| {
             let (buffer, per_pixel) = aov.source(&buffers);
-            Ok(aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view))
+            Ok((*aov, aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view)))
         };
-        Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().map(image).collect::<Result<_, Error>>()? })
+        aovs.iter().map(image).collect()
     }
 
     fn wait(&self) -> Result<(), Error> {
-        crate::readback::wait(&self.gpu.device)
+        readback::wait(&self.gpu.device)
     }
 }
 

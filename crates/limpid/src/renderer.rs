@@ -286,7 +286,9 @@ impl Renderer {
         self.splat.encode(recorder, &particles.chunks, &targets);
         self.tiles.encode(recorder, &targets);
         self.thickness.splat(recorder, "splat-thickness", &particles.chunks, scene.depth, &targets.thickness);
-        self.thickness.blur(recorder, &targets);
+        if settings.thickness_blur {
+            self.thickness.blur(recorder, &targets);
+        }
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, &targets);
         self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), &targets);

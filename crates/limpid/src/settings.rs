@@ -14,6 +14,8 @@ pub struct Settings {
     pub density_threshold: f32,
     /// Resolution of the thickness image, default half.
     pub thickness_scale: Scale,
+    /// Whether the thickness is blurred within the fluid, default true; false shows the plain sum.
+    pub thickness_blur: bool,
     /// Where the fluid is thinner than this many r the background shows; 0, the default, shows all fluid.
     pub min_thickness: f32,
     /// How the surface is smoothed.
@@ -34,6 +36,7 @@ impl Default for Settings {
             splat_scale: 1.5,
             density_threshold: 0.0,
             thickness_scale: Scale::Half,
+            thickness_blur: true,
             min_thickness: 0.0,
             smoothing: Smoothing::default(),
             filter_scale: Scale::Full,

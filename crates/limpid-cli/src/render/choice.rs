@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use limpid::{Filter, Scale};
-use limpid_headless::Background;
+use limpid_headless::{Aov, Background};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -25,6 +25,18 @@ impl Choice for Scale {
 impl Choice for Background {
     const ALL: &'static [(&'static str, Self)] =
         &[("scene", Self::Scene), ("white", Self::White), ("black", Self::Black), ("transparent", Self::Transparent)];
+}
+
+impl Choice for Aov {
+    const ALL: &'static [(&'static str, Self)] = &{
+        let mut named = [("", Self::Depth); Self::ALL.len()];
+        let mut i = 0;
+        while i < named.len() {
+            named[i] = (Self::ALL[i].name(), Self::ALL[i]);
+            i += 1;
+        }
+        named
+    };
 }
 
 /// A coordinate axis.

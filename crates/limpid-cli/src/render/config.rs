@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 12] = [
+    const NOT_NUMBERS: [&str; 13] = [
         "input",
         "output",
         "size",
@@ -113,6 +113,7 @@ mod tests {
         "filter-scale",
         "thickness-scale",
         "background",
+        "show",
         "aov",
         "timings",
         "adapter",

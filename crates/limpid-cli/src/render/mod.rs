@@ -67,7 +67,8 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         let set = survey.read(&frame.path)?;
         let particles = FrameParticles::of(set, &survey)?;
         let shot = stage.shot(&options, &particles);
-        render(&mut offscreen, &shot, &outputs.aovs, files, &frame.path)?;
+        let wanted = Wanted { show: options.show.map(|aov| aov.0), aovs: &outputs.aovs };
+        render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
         if index + 1 == sequence.frames.len()
             && let Some(target) = &outputs.timings
         {
@@ -79,18 +80,30 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     if !quiet { outputs.report() } else { Ok(()) }
 }
 
+/// What a frame's files show.
+struct Wanted<'a> {
+    /// The buffer that the picture is of; None: the shaded fluid.
+    show: Option<Aov>,
+    aovs: &'a [outputs::AovKind],
+}
+
 /// Renders one frame and writes its picture and buffers.
 fn render(
     offscreen: &mut Offscreen,
     shot: &Shot<'_>,
-    aovs: &[outputs::AovKind],
+    wanted: &Wanted<'_>,
     files: &FrameOutputs,
     input: &Path,
 ) -> Result<(), Failure> {
-    let kinds: Vec<Aov> = aovs.iter().map(|kind| kind.aov).collect();
-    let picture = offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
-    write_picture(&files.picture, &picture, shot.background != Background::Transparent)?;
-    for ((kind, path), image) in aovs.iter().zip(&files.aovs).zip(&picture.aovs) {
+    let kinds: Vec<Aov> = wanted.aovs.iter().map(|kind| kind.aov).chain(wanted.show).collect();
+    let mut picture =
+        offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
+    if let (Some(show), Some(image)) = (wanted.show, picture.aovs.last()) {
+        picture.rgba = show.picture(image);
+    }
+    let opaque = wanted.show.is_some() || shot.background != Background::Transparent;
+    write_picture(&files.picture, &picture, opaque)?;
+    for ((kind, path), image) in wanted.aovs.iter().zip(&files.aovs).zip(&picture.aovs) {
         write_aov(path, kind.format, kind.aov, image)?;
     }
     Ok(())

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use clap::{ArgAction, Args};
 use glam::DVec3;
 use limpid::{Absorption, Filter, Scale, Settings, Smoothing};
-use limpid_headless::Background;
+use limpid_headless::{Aov, Background};
 use serde::{Deserialize, Serialize};
 
 /// Vertical field of view in degrees where nothing else is asked for.
@@ -120,6 +120,9 @@ pub struct Options {
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
     pub shininess: Option<f64>,
 
+    /// Draw one buffer instead of the shaded fluid
+    #[arg(long, value_name = "NAME", value_parser = choice::<Aov>(), help_heading = "More output")]
+    pub show: Option<Named<Aov>>,
     /// Write a buffer beside the picture, .exr or .npy; may be given several times
     #[arg(long, value_name = "NAME=FILE", action = ArgAction::Append, help_heading = "More output")]
     pub aov: Option<Vec<String>>,

@@ -8,7 +8,7 @@ use std::io;
 fn channel_names(aov: Aov) -> &'static [&'static str] {
     match (aov, aov.channels()) {
         (Aov::RawDepth | Aov::Depth, _) => &["Z"],
-        (Aov::Normal, _) => &["X", "Y", "Z"],
+        (Aov::RawNormal | Aov::Normal, _) => &["X", "Y", "Z"],
         (_, 1) => &["Y"],
         (_, 3) => &["R", "G", "B"],
         _ => &["R", "G", "B", "A"],

@@ -1,0 +1,50 @@
+//! Pictures of single buffers, for the eye.
+
+use crate::{Aov, Image};
+
+impl Aov {
+    /// An opaque sRGB picture of the buffer, 4 bytes a pixel: depths from near (white) to far, thickness from none (black)
+    /// to the most there is, normals as (n + 1) / 2, clay and colour as light; black where there is no fluid.
+    pub fn picture(self, image: &Image) -> Vec<u8> {
+        let values = &image.values;
+        let rgb: Vec<[f32; 3]> = match self {
+            Self::RawDepth | Self::Depth => {
+                let (near, far) = range(values);
+                grey(values, |z| {
+                    if z.is_finite() { 1.0 - 0.9 * (z - near) / (far - near).max(f32::MIN_POSITIVE) } else { 0.0 }
+                })
+            }
+            Self::RawThickness | Self::Thickness => {
+                let (_, most) = range(values);
+                grey(values, |t| t / most.max(f32::MIN_POSITIVE))
+            }
+            Self::RawNormal | Self::Normal => {
+                let (normals, _) = values.as_chunks::<3>();
+                let shown = |n: &[f32; 3]| if *n == [0.0; 3] { *n } else { n.map(|v| 0.5 * (v + 1.0)) };
+                normals.iter().map(shown).collect()
+            }
+            Self::RawClay | Self::Clay => grey(values, encode),
+            Self::Color => {
+                let (pixels, _) = values.as_chunks::<4>();
+                pixels.iter().map(|p| [p[0], p[1], p[2]].map(encode)).collect()
+            }
+        };
+        let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
+        rgb.iter().flat_map(|[r, g, b]| [byte(*r), byte(*g), byte(*b), 255]).collect()
+    }
+}
+
+fn grey(values: &[f32], shown: impl Fn(f32) -> f32) -> Vec<[f32; 3]> {
+    values.iter().map(|v| [shown(*v); 3]).collect()
+}
+
+/// Smallest and largest finite value; (0, 1) of none.
+fn range(values: &[f32]) -> (f32, f32) {
+    let finite = values.iter().copied().filter(|v| v.is_finite());
+    finite.map(|v| (v, v)).reduce(|(lo, hi), (v, _)| (lo.min(v), hi.max(v))).unwrap_or((0.0, 1.0))
+}
+
+/// The sRGB transfer function.
+fn encode(light: f32) -> f32 {
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
