@@ -18,9 +18,9 @@ pub enum ToneMap {
 /// `display.wgsl`'s `Display`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-struct DisplayUniform {
-    exposure: f32,
-    tone_map: u32,
+pub(crate) struct DisplayUniform {
+    pub exposure: f32,
+    pub tone_map: u32,
 }
 
 /// Shows a linear HDR picture: exposure, tone map, straight alpha. The target should be of an sRGB format.

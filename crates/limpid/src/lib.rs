@@ -9,6 +9,8 @@ mod environment;
 mod error;
 mod framing;
 mod gpu;
+#[cfg(test)]
+mod layout_tests;
 mod particles;
 mod passes;
 mod renderer;

@@ -96,7 +96,7 @@ impl View {
         let px_zero = [(-1.0 + shift.x) / clip.x_axis.x, (1.0 + shift.y) / clip.y_axis.y];
         ViewUniform {
             view_from_local: (self.view_from_world * DMat4::from_translation(origin)).as_mat4(),
-            world_from_view_rotation: self.view_from_world.inverse().as_mat4(),
+            world_from_view: self.view_from_world.inverse().as_mat4(),
             px_zero: px_zero.map(|v| v as f32),
             px_step: px_step.map(|v| v as f32),
             depth_row: [clip.z_axis.z as f32, clip.w_axis.z as f32, clip.z_axis.w as f32, clip.w_axis.w as f32],
@@ -112,7 +112,7 @@ impl View {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct ViewUniform {
     pub view_from_local: Mat4,
-    pub world_from_view_rotation: Mat4,
+    pub world_from_view: Mat4,
     pub px_zero: [f32; 2],
     pub px_step: [f32; 2],
     pub depth_row: [f32; 4],

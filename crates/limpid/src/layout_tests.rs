@@ -1,0 +1,99 @@
+//! Structs shared with WGSL lie in memory as naga lays them out.
+
+use crate::display::DisplayUniform;
+use crate::environment::EnvironmentUniform;
+use crate::passes::OpticsUniform;
+use crate::renderer::SettingsUniform;
+use crate::view::ViewUniform;
+use std::mem::offset_of;
+use wgpu::naga;
+
+/// Shading's module has all structs of the frame.
+const SHADE: &str = concat!(
+    include_str!("frame.wgsl"),
+    include_str!("passes/tile_pixel.wgsl"),
+    include_str!("environment.wgsl"),
+    include_str!("scene_depth.wgsl"),
+    include_str!("passes/shade.wgsl"),
+);
+
+/// Name and offset of the members of a WGSL struct, and its size.
+fn wgsl_layout(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
+    let module =
+        naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name));
+    let Some(naga::TypeInner::Struct { members, span }) = found.map(|(_, ty)| &ty.inner) else {
+        panic!("no struct {name}")
+    };
+    let member = |m: &naga::StructMember| (m.name.clone().unwrap(), m.offset as usize);
+    (members.iter().map(member).collect(), *span as usize)
+}
+
+/// Name and offset of the fields of a Rust struct, and its size.
+macro_rules! rust_layout {
+    ($ty:ident { $($field:ident),+ $(,)? }) => {{
+        // Names every field, or does not compile.
+        let _ = |$ty { $($field: _),+ }: $ty| ();
+        (vec![$((stringify!($field).to_owned(), offset_of!($ty, $field))),+], size_of::<$ty>())
+    }};
+}
+
+fn assert_same((mut rust, rust_size): (Vec<(String, usize)>, usize), wgsl: (Vec<(String, usize)>, usize)) {
+    // WGSL pads at the end by itself.
+    if wgsl.0.len() < rust.len() {
+        rust.retain(|(name, _)| name != "padding");
+    }
+    assert_eq!((rust, rust_size), wgsl);
+}
+
+#[test]
+fn view() {
+    let rust =
+        rust_layout!(ViewUniform { view_from_local, world_from_view, px_zero, px_step, depth_row, size, near, far });
+    assert_same(rust, wgsl_layout(SHADE, "View"));
+}
+
+#[test]
+fn settings() {
+    let rust = rust_layout!(SettingsUniform {
+        radius,
+        splat_scale,
+        density_threshold,
+        thickness_unit,
+        thickness_size,
+        thickness_levels,
+        thickness_divisor,
+        strength,
+        max_radius_px,
+        range,
+        clamp,
+        normal_step,
+        min_thickness,
+        has_scene_depth,
+        background,
+        picture_size,
+        fluid_scale,
+        padding,
+    });
+    assert_same(rust, wgsl_layout(SHADE, "Settings"));
+}
+
+#[test]
+fn optics() {
+    let rust =
+        rust_layout!(OpticsUniform { absorption, refractive_index, color, refraction, specular, shininess, padding });
+    assert_same(rust, wgsl_layout(SHADE, "Optics"));
+}
+
+#[test]
+fn environment() {
+    let rust =
+        rust_layout!(EnvironmentUniform { up, eye_height, sun, tile, east, tile_fade, eye_from_center, padding });
+    assert_same(rust, wgsl_layout(SHADE, "Environment"));
+}
+
+#[test]
+fn display() {
+    let rust = rust_layout!(DisplayUniform { exposure, tone_map });
+    assert_same(rust, wgsl_layout(include_str!("display.wgsl"), "Display"));
+}

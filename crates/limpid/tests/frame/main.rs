@@ -1,0 +1,18 @@
+//! Whole frames against f64 twins, closed forms and laws. They run on any adapter, CPU drivers included.
+
+#[path = "../reference/mod.rs"]
+mod reference;
+
+mod common;
+
+mod composite;
+mod large_splats;
+mod laws;
+mod narrow_range;
+mod normals;
+mod refusals;
+mod shading;
+mod slab;
+mod sphere;
+mod splat;
+mod thickness;
