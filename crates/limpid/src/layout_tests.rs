@@ -87,8 +87,22 @@ fn optics() {
 
 #[test]
 fn environment() {
-    let rust =
-        rust_layout!(EnvironmentUniform { up, eye_height, sun, tile, east, tile_fade, eye_from_center, padding });
+    let rust = rust_layout!(EnvironmentUniform {
+        up,
+        eye_height,
+        sun,
+        tile,
+        east,
+        tile_fade,
+        eye_from_center,
+        extent,
+        sun_east,
+        shadow_texels,
+        sun_north,
+        shadow_radius,
+        shadow_absorption,
+        padding
+    });
     assert_same(rust, wgsl_layout(SHADE, "Environment"));
 }
 

@@ -86,7 +86,7 @@ impl Motion {
             up,
             sun: self.turn * environment.sun,
             floor: environment.floor.map(|floor| self.scale * floor + self.shift.dot(up)),
-            tile: self.scale * environment.tile,
+            extent: self.scale * environment.extent,
             center: self.turn * (self.scale * environment.center) + self.shift,
         }
     }

@@ -1,7 +1,9 @@
 //! Shading against the twin, on the GPU's own surface; and what an opaque scene hides.
 
 use crate::common::{Cloud, Difference, Rendered, SIZE, looking, render, shot_of, unsmoothed};
-use crate::reference::{Camera, Scene, balls_of, blurred, liquid, scene_of, shade, upsampled};
+use crate::reference::{
+    Camera, Scene, Shadow, Surroundings, balls_of, blurred, liquid, per_world, scene_of, shade, upsampled,
+};
 use glam::{DVec3, dvec3};
 use limpid::{Absorption, Environment, Optics, Settings, View};
 use limpid_headless::{Background, Shot};
@@ -16,12 +18,19 @@ fn shot(cloud: &Cloud, settings: Settings, background: Background, floor: f64) -
     Shot { environment, background, ..shot_of(cloud, view(), SIZE, settings) }
 }
 
-fn scene_behind(shot: &Shot<'_>) -> Option<Scene> {
+/// Only the built-in scene has a floor that takes the shadow.
+fn surroundings(shot: &Shot<'_>, radius: f64) -> Surroundings {
+    let Shot { environment, particles, settings, .. } = shot;
+    let cast = || Shadow::cast(particles, environment, per_world(&settings.optics, radius), radius);
+    Surroundings { environment: *environment, shadow: (shot.background == Background::Scene).then(cast) }
+}
+
+fn scene_behind(shot: &Shot<'_>, surroundings: &Surroundings) -> Option<Scene> {
     let camera = Camera::new(shot.view, SIZE);
     let plain =
         |color| Scene { color: vec![color; camera.pixel_count()], depth: vec![f64::INFINITY; camera.pixel_count()] };
     match shot.background {
-        Background::Scene => Some(scene_of(&camera, &shot.environment)),
+        Background::Scene => Some(scene_of(&camera, surroundings)),
         Background::White => Some(plain(DVec3::ONE)),
         Background::Black => Some(plain(DVec3::ZERO)),
         Background::Transparent => None,
@@ -33,8 +42,9 @@ fn expected_color(shot: &Shot<'_>, rendered: &Rendered, radius: f64) -> Vec<glam
     let thickness: Vec<f64> = rendered.thickness.iter().map(|v| f64::from(*v)).collect();
     let normal: Vec<DVec3> = rendered.normal.iter().map(|v| v.as_dvec3()).collect();
     let surface = (&depth[..], &normal[..], &thickness[..]);
-    let scene = scene_behind(shot);
-    shade(&Camera::new(shot.view, SIZE), &shot.settings, radius, &shot.environment, scene.as_ref(), surface)
+    let surroundings = surroundings(shot, radius);
+    let scene = scene_behind(shot, &surroundings);
+    shade(&Camera::new(shot.view, SIZE), &shot.settings, radius, &surroundings, scene.as_ref(), surface)
 }
 
 fn compare(what: &str, settings: Settings, background: Background, floor: f64) {
@@ -87,7 +97,7 @@ fn an_opaque_floor_hides_what_is_under_it() {
     let shot = shot(&cloud, unsmoothed(), Background::Scene, floor);
     let rendered = render(&shot);
     let camera = Camera::new(shot.view, SIZE);
-    let scene = scene_of(&camera, &shot.environment);
+    let scene = scene_of(&camera, &surroundings(&shot, cloud.radius()));
     let hidden = |i: usize| f64::from(rendered.depth[i]) > scene.depth[i] * (1.0 + 1e-5);
     let (mut hidden_pixels, mut seen_pixels) = (0, 0);
     for i in (0..scene.depth.len()).filter(|i| rendered.depth[*i].is_finite()) {

@@ -1,6 +1,6 @@
 //! The procedural surroundings, and the scene a host without one of its own gets.
 
-use super::Camera;
+use super::{Camera, Shadow};
 use glam::{DVec2, DVec3};
 use limpid::Environment;
 
@@ -12,8 +12,14 @@ pub struct Scene {
     pub depth: Vec<f64>,
 }
 
+/// The surroundings and the shadow on them.
+pub struct Surroundings {
+    pub environment: Environment,
+    pub shadow: Option<Shadow>,
+}
+
 /// The surroundings themselves as a scene.
-pub fn scene_of(camera: &Camera, environment: &Environment) -> Scene {
+pub fn scene_of(camera: &Camera, surroundings: &Surroundings) -> Scene {
     let world_from_view = camera.view.view_from_world.inverse();
     // The view cone of a pixel widens by this much per distance.
     let spread = if camera.view.is_perspective() { 1.0 / camera.px_per_world(1.0) } else { 0.0 };
@@ -22,8 +28,8 @@ pub fn scene_of(camera: &Camera, environment: &Environment) -> Scene {
         let ray = camera.ray(px);
         let origin = world_from_view.transform_point3(ray.origin);
         let direction = world_from_view.transform_vector3(ray.direction);
-        scene.color.push(surroundings(environment, origin, direction.normalize(), spread));
-        let depth = floor_distance(environment, origin, direction);
+        scene.color.push(surroundings.light(origin, direction.normalize(), spread));
+        let depth = floor_distance(&surroundings.environment, origin, direction);
         scene.depth.push(depth.filter(|depth| *depth > camera.view.near).unwrap_or(f64::INFINITY));
     }
     scene
@@ -36,16 +42,24 @@ fn floor_distance(environment: &Environment, point: DVec3, direction: DVec3) -> 
     (descent > 0.0 && height > 0.0).then(|| height / descent)
 }
 
-/// Light that reaches a point of the world from a direction; `spread` is the width of the cone it comes from per distance.
-pub fn surroundings(environment: &Environment, point: DVec3, direction: DVec3, spread: f64) -> DVec3 {
-    let Some(distance) = floor_distance(environment, point, direction) else { return sky(environment, direction) };
-    let descent = -direction.dot(environment.up);
-    let tiles = on_ground(environment, point + distance * direction - environment.center) / environment.tile;
-    let width = spread * distance / environment.tile;
-    let white = checker(tiles.x, tiles.y, width, width / descent);
-    let stone = DVec3::new(0.44, 0.43, 0.42).lerp(DVec3::new(0.55, 0.54, 0.525), white);
-    let horizon = sky(environment, direction.reject_from(environment.up).normalize());
-    horizon.lerp(stone, (-0.003 * tiles.length_squared()).exp())
+impl Surroundings {
+    /// Light that reaches a point of the world from a direction; `spread` is the width of the cone it comes from per
+    /// distance.
+    pub fn light(&self, point: DVec3, direction: DVec3, spread: f64) -> DVec3 {
+        let environment = &self.environment;
+        let Some(distance) = floor_distance(environment, point, direction) else { return sky(environment, direction) };
+        let descent = -direction.dot(environment.up);
+        let at = point + distance * direction;
+        let tile = 0.25 * environment.extent;
+        let tiles = on_ground(environment, at - environment.center) / tile;
+        let width = spread * distance / tile;
+        let white = checker(tiles.x, tiles.y, width, width / descent);
+        let stone = DVec3::new(0.40, 0.39, 0.38).lerp(DVec3::new(0.52, 0.51, 0.495), white);
+        let sunlight = self.shadow.as_ref().map_or(DVec3::ONE, |shadow| shadow.light(at));
+        let lit = stone * (0.45 + 0.55 * sunlight);
+        let horizon = sky(environment, direction.reject_from(environment.up).normalize());
+        horizon.lerp(lit, (-0.002 * tiles.length_squared()).exp())
+    }
 }
 
 /// Coordinates to the east and to the north.
@@ -67,7 +81,7 @@ fn checker(x: f64, y: f64, width: f64, depth: f64) -> f64 {
 
 fn sky(environment: &Environment, direction: DVec3) -> DVec3 {
     let height = direction.dot(environment.up).max(0.0);
-    let clear = DVec3::new(0.84, 0.88, 0.91).lerp(DVec3::new(0.20, 0.40, 0.68), height.sqrt());
+    let clear = DVec3::new(0.66, 0.72, 0.78).lerp(DVec3::new(0.13, 0.27, 0.50), height.sqrt());
     let plane = on_ground(environment, direction) / (height + 0.25);
     let wave_x = (2.3 * plane.x + 1.4 * (1.7 * plane.y + 0.6).sin()).sin();
     let wave_y = (2.9 * plane.y + 1.4 * (2.1 * plane.x + 2.2).sin()).sin();

@@ -7,13 +7,15 @@ mod environment;
 mod narrow_range;
 mod normals;
 mod shade;
+mod shadow;
 mod splat;
 mod thickness;
 
 pub use camera::{Camera, Ray};
-pub use environment::{Scene, scene_of};
+pub use environment::{Scene, Surroundings, scene_of};
 pub use narrow_range::narrow_range;
 pub use normals::normals;
-pub use shade::shade;
+pub use shade::{per_world, shade};
+pub use shadow::Shadow;
 pub use splat::{Ball, balls_of, raw_depth};
 pub use thickness::{blurred, liquid, upsampled};

@@ -1,16 +1,16 @@
 //! Light in and on the liquid (van der Laan 2009, Eq. 13-15, with the exact dielectric Fresnel term).
 
-use super::environment::{SUN_LIGHT, Scene, surroundings};
+use super::environment::{SUN_LIGHT, Scene, Surroundings};
 use super::{Camera, Ray};
 use glam::{DVec2, DVec3, DVec4, FloatExt};
-use limpid::{Absorption, Environment, Settings};
+use limpid::{Absorption, Optics, Settings};
 
 /// Linear premultiplied colour of each pixel's surface; 0 where there is none to see. `radius` is r.
 pub fn shade(
     camera: &Camera,
     settings: &Settings,
     radius: f64,
-    environment: &Environment,
+    surroundings: &Surroundings,
     scene: Option<&Scene>,
     (depth, normal, thickness): (&[f64], &[DVec3], &[f64]),
 ) -> Vec<DVec4> {
@@ -24,7 +24,7 @@ pub fn shade(
             camera,
             settings,
             radius,
-            environment,
+            surroundings,
             px,
             ray: camera.ray(px),
             depth: depth[i],
@@ -40,7 +40,7 @@ struct Surface<'a> {
     camera: &'a Camera,
     settings: &'a Settings,
     radius: f64,
-    environment: &'a Environment,
+    surroundings: &'a Surroundings,
     px: DVec2,
     ray: Ray,
     depth: f64,
@@ -65,24 +65,20 @@ impl Surface<'_> {
 
     /// Beer-Lambert.
     fn transmittance(&self) -> DVec3 {
-        let per_world = match self.settings.optics.absorption {
-            Absorption::PerRadius(rgb) => rgb.map(|k| f64::from(k) / self.radius),
-            Absorption::PerWorld(rgb) => rgb.map(f64::from),
-        };
-        DVec3::from_array(per_world.map(|k| (-k * self.thickness).exp()))
+        (-per_world(&self.settings.optics, self.radius) * self.thickness).exp()
     }
 
     fn reflected(&self, toward: DVec3) -> DVec3 {
         let world_from_view = self.camera.view.view_from_world.inverse();
         let position = world_from_view.transform_point3(self.ray.at(self.depth));
         let direction = world_from_view.transform_vector3(toward.reflect(self.normal));
-        surroundings(self.environment, position, direction, 0.02)
+        self.surroundings.light(position, direction, 0.02)
     }
 
     /// Blinn's highlight of the sun, four times as bright as its light on a wall.
     fn glint(&self, toward: DVec3) -> DVec3 {
         let optics = &self.settings.optics;
-        let sun = self.camera.view.view_from_world.transform_vector3(self.environment.sun);
+        let sun = self.camera.view.view_from_world.transform_vector3(self.surroundings.environment.sun);
         let highlight = self.normal.dot((sun - toward).normalize()).max(0.0).powf(optics.shininess.into());
         4.0 * f64::from(optics.specular) * highlight * SUN_LIGHT
     }
@@ -105,6 +101,14 @@ impl Surface<'_> {
         let row = |y: f64| texel(at.x, y).lerp(texel(at.x + 1.0, y), at.x.fract());
         row(at.y).lerp(row(at.y + 1.0), at.y.fract())
     }
+}
+
+/// Absorption per world unit.
+pub fn per_world(optics: &Optics, radius: f64) -> DVec3 {
+    DVec3::from_array(match optics.absorption {
+        Absorption::PerRadius(rgb) => rgb.map(|k| f64::from(k) / radius),
+        Absorption::PerWorld(rgb) => rgb.map(f64::from),
+    })
 }
 
 /// Unpolarised reflectance by Snell's law and the amplitudes of both polarisations.

@@ -21,7 +21,7 @@ impl Texels {
     }
 
     /// The texel at a column and row; None outside.
-    fn at(&self, x: i64, y: i64) -> Option<f64> {
+    pub fn at(&self, x: i64, y: i64) -> Option<f64> {
         let inside = x >= 0 && y >= 0 && x < i64::from(self.size[0]) && y < i64::from(self.size[1]);
         inside.then(|| self.values[(y * i64::from(self.size[0]) + x) as usize])
     }
