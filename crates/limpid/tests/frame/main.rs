@@ -11,6 +11,7 @@ mod laws;
 mod narrow_range;
 mod normals;
 mod refusals;
+mod resolution;
 mod shading;
 mod slab;
 mod sphere;

@@ -10,6 +10,7 @@ mod shade;
 mod shadow;
 mod splat;
 mod thickness;
+mod upsample;
 
 pub use camera::{Camera, Ray};
 pub use environment::{Scene, Surroundings, scene_of};
@@ -19,3 +20,4 @@ pub use shade::{per_world, shade};
 pub use shadow::Shadow;
 pub use splat::{Ball, balls_of, raw_depth};
 pub use thickness::{blurred, liquid, upsampled};
+pub use upsample::{Surface, upsampled as upsampled_surface};
