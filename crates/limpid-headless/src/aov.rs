@@ -13,13 +13,16 @@ pub enum Aov {
     Thickness,
     /// View-space unit normal.
     Normal,
+    /// Mean curvature per world length after the filter, positive where the surface bulges toward the viewer.
+    Curvature,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
 }
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 5] = [Self::RawDepth, Self::Depth, Self::Thickness, Self::Normal, Self::Color];
+    pub const ALL: [Self; 6] =
+        [Self::RawDepth, Self::Depth, Self::Thickness, Self::Normal, Self::Curvature, Self::Color];
 
     /// Its name on the command line: "raw-depth", "depth", ...
     pub fn name(self) -> &'static str {
@@ -28,6 +31,7 @@ impl Aov {
             Self::Depth => "depth",
             Self::Thickness => "thickness",
             Self::Normal => "normal",
+            Self::Curvature => "curvature",
             Self::Color => "color",
         }
     }
@@ -35,7 +39,7 @@ impl Aov {
     /// Values per pixel.
     pub fn channels(self) -> usize {
         match self {
-            Self::RawDepth | Self::Depth | Self::Thickness => 1,
+            Self::RawDepth | Self::Depth | Self::Thickness | Self::Curvature => 1,
             Self::Normal => 3,
             Self::Color => 4,
         }
@@ -54,12 +58,17 @@ pub struct Image {
 }
 
 impl Aov {
-    /// The GPU buffer that holds it, and its 4-byte words per pixel.
-    pub(crate) fn source<'a>(self, buffers: &FrameBuffers<'a>) -> (&'a wgpu::Buffer, usize) {
+    /// The GPU buffer that holds it, and its 4-byte words per pixel. `curvature` is there for the one that needs it.
+    pub(crate) fn source<'a>(
+        self,
+        buffers: &FrameBuffers<'a>,
+        curvature: Option<&'a wgpu::Buffer>,
+    ) -> (&'a wgpu::Buffer, usize) {
         match self {
             Self::RawDepth => (buffers.raw_nearness, 1),
             Self::Depth => (buffers.nearness, 1),
             Self::Thickness | Self::Normal => (buffers.surface, 4),
+            Self::Curvature => (curvature.expect("made before"), 1),
             Self::Color => (buffers.shaded, 4),
         }
     }
@@ -70,6 +79,9 @@ impl Aov {
             Self::RawDepth | Self::Depth => words.iter().map(|nearness| view.depth_of(*nearness)).collect(),
             Self::Thickness => inside(words, nearness, |pixel| [pixel[3]]),
             Self::Normal => inside(words, nearness, |pixel| [pixel[0], pixel[1], pixel[2]]),
+            Self::Curvature => {
+                words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
+            }
             Self::Color => inside(words, nearness, |pixel| *pixel),
         };
         Image { size, channels: self.channels(), values }

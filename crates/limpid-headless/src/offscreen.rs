@@ -261,11 +261,20 @@ impl Offscreen {
         let pixels = shot.size[0] as usize * shot.size[1] as usize;
         let words = |buffer, per_pixel| read_words(device, queue, buffer, pixels * per_pixel);
         let nearness = if aovs.is_empty() { Vec::new() } else { words(buffers.nearness, 1)? };
+        let curvature = aovs.contains(&Aov::Curvature).then(|| self.mean_curvature()).flatten();
         let image = |aov: &Aov| {
-            let (buffer, per_pixel) = aov.source(&buffers);
+            let (buffer, per_pixel) = aov.source(&buffers, curvature.as_ref());
             Ok(aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view))
         };
         Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().map(image).collect::<Result<_, Error>>()? })
+    }
+
+    fn mean_curvature(&self) -> Option<wgpu::Buffer> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let curvature = self.renderer.mean_curvature(device, &mut encoder);
+        queue.submit([encoder.finish()]);
+        curvature
     }
 
     fn wait(&self) -> Result<(), Error> {
