@@ -21,6 +21,8 @@ pub enum Aov {
     RawClay,
     /// The same of the smoothed surface.
     Clay,
+    /// Mean curvature per world length after the filter, positive where the surface bulges toward the viewer.
+    Curvature,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
 }
@@ -30,7 +32,7 @@ const LAMP: [f32; 3] = [-0.36, 0.48, 0.8];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -39,6 +41,7 @@ impl Aov {
         Self::Normal,
         Self::RawClay,
         Self::Clay,
+        Self::Curvature,
         Self::Color,
     ];
 
@@ -53,6 +56,7 @@ impl Aov {
             Self::Normal => "normal",
             Self::RawClay => "raw-clay",
             Self::Clay => "clay",
+            Self::Curvature => "curvature",
             Self::Color => "color",
         }
     }
@@ -60,7 +64,8 @@ impl Aov {
     /// Values per pixel.
     pub fn channels(self) -> usize {
         match self {
-            Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness | Self::RawClay | Self::Clay => 1,
+            Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
+            Self::RawClay | Self::Clay | Self::Curvature => 1,
             Self::RawNormal | Self::Normal => 3,
             Self::Color => 4,
         }
@@ -71,9 +76,14 @@ impl Aov {
         matches!(self, Self::RawThickness | Self::RawNormal | Self::RawClay)
     }
 
-    /// The GPU buffer that holds it, and its 4-byte words per pixel.
-    pub(crate) fn source<'a>(self, buffers: &FrameBuffers<'a>) -> (&'a wgpu::Buffer, usize) {
+    /// The GPU buffer that holds it, and its 4-byte words per pixel. `curvature` is there for the one that needs it.
+    pub(crate) fn source<'a>(
+        self,
+        buffers: &FrameBuffers<'a>,
+        curvature: Option<&'a wgpu::Buffer>,
+    ) -> (&'a wgpu::Buffer, usize) {
         match self {
+            Self::Curvature => (curvature.expect("made for this image"), 1),
             Self::RawDepth => (buffers.raw_nearness, 1),
             Self::Depth => (buffers.nearness, 1),
             Self::Color => (buffers.shaded, 4),
@@ -89,6 +99,9 @@ impl Aov {
             Self::RawNormal | Self::Normal => inside(words, nearness, |pixel| [pixel[0], pixel[1], pixel[2]]),
             Self::RawClay | Self::Clay => {
                 inside(words, nearness, |n| [(LAMP[0] * n[0] + LAMP[1] * n[1] + LAMP[2] * n[2]).max(0.0)])
+            }
+            Self::Curvature => {
+                words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
             }
             Self::Color => inside(words, nearness, |pixel| *pixel),
         };

@@ -281,11 +281,20 @@ impl Offscreen {
         let words =
             |buffer, per_pixel| readback::read_words(&self.gpu.device, &self.gpu.queue, buffer, pixels * per_pixel);
         let nearness = words(buffers.nearness, 1)?;
+        let curvature = aovs.contains(&Aov::Curvature).then(|| self.mean_curvature()).flatten();
         let image = |aov: &Aov| {
-            let (buffer, per_pixel) = aov.source(&buffers);
+            let (buffer, per_pixel) = aov.source(&buffers, curvature.as_ref());
             Ok((*aov, aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view)))
         };
         aovs.iter().map(image).collect()
+    }
+
+    fn mean_curvature(&self) -> Option<wgpu::Buffer> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let curvature = self.renderer.mean_curvature(device, &mut encoder);
+        queue.submit([encoder.finish()]);
+        curvature
     }
 
     fn wait(&self) -> Result<(), Error> {

@@ -2,10 +2,15 @@
 
 use crate::{Aov, Image};
 
+/// Radius of the ball, in r, whose curvature is shown at full brightness.
+const BALL: f32 = 1.5;
+
 impl Aov {
     /// An opaque sRGB picture of the buffer, 4 bytes a pixel: depths from near (white) to far, thickness from none (black)
-    /// to the most there is, normals as (n + 1) / 2, clay and colour as light; black where there is no fluid.
-    pub fn picture(self, image: &Image) -> Vec<u8> {
+    /// to the most there is, normals as (n + 1) / 2, clay and colour as light, mean
+    /// curvature as the 2009 paper's Fig. 8 (positive green, negative red, full brightness at that of a ball of 1.5 r);
+    /// black where there is no fluid. `radius` is r, world units.
+    pub fn picture(self, image: &Image, radius: f32) -> Vec<u8> {
         let values = &image.values;
         let rgb: Vec<[f32; 3]> = match self {
             Self::RawDepth | Self::Depth => {
@@ -22,6 +27,10 @@ impl Aov {
                 let (normals, _) = values.as_chunks::<3>();
                 let shown = |n: &[f32; 3]| if *n == [0.0; 3] { *n } else { n.map(|v| 0.5 * (v + 1.0)) };
                 normals.iter().map(shown).collect()
+            }
+            Self::Curvature => {
+                let shown = |h: &f32| [(-h * BALL * radius).max(0.0), (h * BALL * radius).max(0.0), 0.0];
+                values.iter().map(shown).collect()
             }
             Self::RawClay | Self::Clay => grey(values, encode),
             Self::Color => {

@@ -1,9 +1,10 @@
 //! The frame: one road from particles to the host's target.
 
 use crate::environment::ShadowTint;
-use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, uniform_buffer};
+use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
+    Composite, Curvature, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
+    level_count,
 };
 use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};
@@ -137,6 +138,7 @@ pub struct Renderer {
     shade: Shade,
     upsample: Upsample,
     composite: Composite,
+    curvature: Curvature,
     shadow: Shadow,
     /// Of the shadow cast for the frame to come.
     shadow_tint: Option<ShadowTint>,
@@ -151,6 +153,8 @@ struct Prepared {
     frame_group: wgpu::BindGroup,
     images: wgpu::BindGroup,
     nearness: wgpu::Buffer,
+    /// The same at the fluid's own resolution.
+    smoothed: wgpu::Buffer,
 }
 
 /// Stand-ins for a scene's textures where there is no scene.
@@ -201,6 +205,7 @@ impl Renderer {
             shade: Shade::new(device, &layout),
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
+            curvature: Curvature::new(device, &layout),
             shadow: Shadow::new(device, &layout),
             shadow_tint: None,
             nothing: Nothing::new(device),
@@ -298,7 +303,8 @@ impl Renderer {
 
         let images = self.composite.bind(device, picture.nearness, picture.shaded);
         let nearness = picture.nearness.clone();
-        self.prepared = Some(Prepared { frame_group, images, nearness });
+        let smoothed = smoothed.clone();
+        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed });
         self.targets = Some(targets);
         Ok(())
     }
@@ -309,6 +315,18 @@ impl Renderer {
         if let Some(prepared) = &self.prepared {
             self.composite.draw(pass, &prepared.frame_group, &prepared.images);
         }
+    }
+
+    /// Records the mean curvature of the last prepared frame's smoothed surface and returns the buffer it will be in: one
+    /// f32 for each pixel, in 1 / world unit, positive where the surface bulges toward the viewer, 0 where a neighbouring
+    /// pixel is missing. None before the first frame.
+    pub fn mean_curvature(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) -> Option<wgpu::Buffer> {
+        let (targets, prepared) = (self.targets.as_ref()?, self.prepared.as_ref()?);
+        let size = targets.picture_size;
+        let curvature = storage_buffer(device, "curvature", 4 * u64::from(size[0]) * u64::from(size[1]));
+        let recorder = &mut Recorder { device, encoder, frame_group: &prepared.frame_group, profiler: None };
+        self.curvature.encode(recorder, &prepared.smoothed, &curvature, size);
+        Some(curvature)
     }
 
     /// The buffers of the last prepared frame, for reading back; None before the first.

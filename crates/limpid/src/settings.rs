@@ -78,9 +78,27 @@ impl Scale {
 pub enum Filter {
     /// The splats as they are.
     None,
+    /// A plain Gaussian over all fluid pixels, across silhouettes too: the papers' baseline.
+    Gaussian,
+    /// A Gaussian over the picture times one over depth, in two passes along the axes
+    /// (Green 2010, "Screen Space Fluid Rendering for Games").
+    Bilateral,
+    /// Van der Laan et al. 2009, "Screen Space Fluid Rendering with Curvature Flow".
+    CurvatureFlow,
     /// Truong and Yuksel 2018, "A Narrow-Range Filter for Screen-Space Fluid Rendering".
     #[default]
     NarrowRange,
+}
+
+/// How curvature flow advances in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CurvatureFlow {
+    /// A few semi-implicit steps, stable at any length: each solves whole rows, then columns, or the other way round.
+    #[default]
+    Implicit,
+    /// Many explicit steps, as in the paper. A step is never longer than is stable at its pixel, so that a large strength
+    /// is the paper's form, whose iterations smooth by pixels: 100 of them by some 7.
+    Explicit,
 }
 
 /// Settings of the smoothing pass.
@@ -91,14 +109,21 @@ pub struct Smoothing {
     /// Smoothing length in r, 0 to 20: the standard deviation of the filter's Gaussian over the surface, the same
     /// meaning for every filter.
     pub strength: f32,
-    /// How often the filter is applied, 1 to 100, default 1.
+    /// How often the filter is applied, 1 to 1000, default 1 (curvature flow: 6, or 100 in the explicit form). They
+    /// share the smoothing length: more of them do not smooth more.
     pub iterations: u32,
     /// Largest half-width of the filter in pixels, 1 to 256, default 100: bounds the cost of a close-up.
     pub max_radius_px: u32,
-    /// Narrow-range only: depths within this many r of the surface already accepted belong to it; default 10.
+    /// What belongs to one surface, in r. Narrow-range: depths within this of the surface already accepted, default 10.
+    /// Bilateral: the standard deviation of its Gaussian over depth, default 2. Curvature flow: neighbouring pixels within
+    /// this, default 2.
     pub range: f32,
     /// Narrow-range only: samples behind the range count as this many r behind the centre; default 1.
     pub clamp: f32,
+    /// Bilateral only: the exact filter in two dimensions instead of its two passes; slow, to compare with. Default off.
+    pub exact_2d: bool,
+    /// Curvature flow only: how it advances in time, default implicit.
+    pub curvature_flow: CurvatureFlow,
 }
 
 impl Default for Smoothing {
@@ -110,7 +135,30 @@ impl Default for Smoothing {
 impl Smoothing {
     /// The defaults of one filter.
     pub const fn of(filter: Filter) -> Self {
-        Self { filter, strength: 1.5, iterations: 1, max_radius_px: 100, range: 10.0, clamp: 1.0 }
+        let narrow_range = Self {
+            filter,
+            strength: 1.5,
+            iterations: 1,
+            max_radius_px: 100,
+            range: 10.0,
+            clamp: 1.0,
+            exact_2d: false,
+            curvature_flow: CurvatureFlow::Implicit,
+        };
+        match filter {
+            Filter::None | Filter::Gaussian | Filter::NarrowRange => narrow_range,
+            Filter::Bilateral => Self { range: 2.0, ..narrow_range },
+            Filter::CurvatureFlow => Self::flow(CurvatureFlow::Implicit),
+        }
+    }
+
+    /// The defaults of one form of curvature flow.
+    pub const fn flow(form: CurvatureFlow) -> Self {
+        let iterations = match form {
+            CurvatureFlow::Implicit => 6,
+            CurvatureFlow::Explicit => 100,
+        };
+        Self { filter: Filter::CurvatureFlow, iterations, range: 2.0, curvature_flow: form, ..Self::of(Filter::None) }
     }
 }
 
@@ -165,7 +213,7 @@ impl Settings {
         within("min thickness", self.min_thickness, 0.0..=f32::MAX, "0 or more")?;
         within("normal step", self.normal_step, 0.01..=1000.0, "from 0.01 to 1000")?;
         within("strength", smoothing.strength, 0.0..=20.0, "from 0 to 20")?;
-        within("iterations", smoothing.iterations as f32, 1.0..=100.0, "from 1 to 100")?;
+        within("iterations", smoothing.iterations as f32, 1.0..=1000.0, "from 1 to 1000")?;
         within("max radius", smoothing.max_radius_px as f32, 1.0..=256.0, "from 1 to 256")?;
         within("range", smoothing.range, 0.01..=1000.0, "from 0.01 to 1000")?;
         within("clamp", smoothing.clamp, 0.0..=1000.0, "from 0 to 1000")?;

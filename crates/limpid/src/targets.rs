@@ -24,6 +24,8 @@ pub(crate) struct Targets {
     pub covered: wgpu::Buffer,
     /// Indirect dispatch, count and positions of the tiles that hold fluid.
     pub tiles: wgpu::Buffer,
+    /// u32 for each tile: whether it is among them.
+    pub occupied: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
     pub thickness: ThicknessImages,
@@ -103,6 +105,7 @@ impl Targets {
             raw: image("raw nearness", 4 * pixels),
             covered: image("covered blocks", 4 * cells(size, BLOCK_PX)),
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
+            occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size)),
             surface: image("surface", 16 * pixels),

@@ -1,7 +1,7 @@
 //! Options that are one of a few names. Each list of names is here and nowhere else.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use limpid::{Filter, Scale};
+use limpid::{CurvatureFlow, Filter, Scale};
 use limpid_headless::{Aov, Background};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -15,7 +15,17 @@ pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
 }
 
 impl Choice for Filter {
-    const ALL: &'static [(&'static str, Self)] = &[("narrow-range", Self::NarrowRange), ("none", Self::None)];
+    const ALL: &'static [(&'static str, Self)] = &[
+        ("narrow-range", Self::NarrowRange),
+        ("curvature-flow", Self::CurvatureFlow),
+        ("bilateral", Self::Bilateral),
+        ("gaussian", Self::Gaussian),
+        ("none", Self::None),
+    ];
+}
+
+impl Choice for CurvatureFlow {
+    const ALL: &'static [(&'static str, Self)] = &[("implicit", Self::Implicit), ("explicit", Self::Explicit)];
 }
 
 impl Choice for Scale {

@@ -103,12 +103,13 @@ mod tests {
     use super::*;
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 13] = [
+    const NOT_NUMBERS: [&str; 14] = [
         "input",
         "output",
         "size",
         "up",
         "filter",
+        "curvature-flow",
         "quality",
         "filter-scale",
         "thickness-scale",

@@ -24,7 +24,7 @@ const RANGES: &[(&str, Range)] = &[
     ("radius", Range::Within(1e-12, 1e12)),
     ("splat-scale", Range::Within(0.5, 4.0)),
     ("strength", Range::Within(0.0, 20.0)),
-    ("iterations", Range::Within(1.0, 100.0)),
+    ("iterations", Range::Within(1.0, 1000.0)),
     ("filter-max-px", Range::Within(1.0, 256.0)),
     ("filter-range", Range::Within(0.01, 1000.0)),
     ("filter-clamp", Range::Within(0.0, 1000.0)),

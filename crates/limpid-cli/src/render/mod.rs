@@ -99,7 +99,7 @@ fn render(
     let mut picture =
         offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
     if let (Some(show), Some(image)) = (wanted.show, picture.aovs.last()) {
-        picture.rgba = show.picture(image);
+        picture.rgba = show.picture(image, shot.particles.reference_radius());
     }
     let opaque = wanted.show.is_some() || shot.background != Background::Transparent;
     write_picture(&files.picture, &picture, opaque)?;

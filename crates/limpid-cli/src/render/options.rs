@@ -5,7 +5,7 @@ use super::size::Size;
 use crate::failure::Failure;
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use limpid::{Absorption, Filter, Scale, Settings, Smoothing};
+use limpid::{Absorption, CurvatureFlow, Filter, Scale, Settings, Smoothing};
 use limpid_headless::{Aov, Background};
 use serde::{Deserialize, Serialize};
 
@@ -60,6 +60,9 @@ pub struct Options {
     /// How the surface is smoothed
     #[arg(long, value_name = "NAME", value_parser = choice::<Filter>(), help_heading = "Surface")]
     pub filter: Option<Named<Filter>>,
+    /// How curvature flow advances; asks for that filter where no other is named
+    #[arg(long, value_name = "FORM", value_parser = choice::<CurvatureFlow>(), help_heading = "Surface")]
+    pub curvature_flow: Option<Named<CurvatureFlow>>,
     /// Smoothing length in particle radii
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Surface")]
     pub strength: Option<f64>,
@@ -69,7 +72,7 @@ pub struct Options {
     /// Largest half-width of the filter in pixels, which bounds the cost of a close-up
     #[arg(long, value_name = "PX", allow_hyphen_values = true, help_heading = "Surface")]
     pub filter_max_px: Option<u32>,
-    /// Narrow-range filter: depths within this many particle radii belong to the same surface
+    /// What counts as one surface, in particle radii of depth; its exact meaning is each filter's
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub filter_range: Option<f64>,
     /// Narrow-range filter: what lies behind the range counts as this many particle radii behind
@@ -160,7 +163,12 @@ impl Options {
 
     /// What the choices of a layer (quality, filter) imply for other options.
     pub fn implied(&self) -> Self {
-        let smoothing = self.filter.map(|filter| Self::of_smoothing(&Smoothing::of(filter.0))).unwrap_or_default();
+        let form = self.curvature_flow.map(|form| form.0);
+        let smoothing = match (self.filter.map(|filter| filter.0), form) {
+            (None | Some(Filter::CurvatureFlow), Some(form)) => Some(Smoothing::flow(form)),
+            (filter, _) => filter.map(Smoothing::of),
+        };
+        let smoothing = smoothing.as_ref().map(Self::of_smoothing).unwrap_or_default();
         let standard = Settings::default();
         let scales = self.quality.map(|quality| match quality.0 {
             Quality::Draft => (Scale::Half, Scale::Quarter),
@@ -201,6 +209,7 @@ impl Options {
     fn of_smoothing(smoothing: &Smoothing) -> Self {
         Self {
             filter: Some(Named(smoothing.filter)),
+            curvature_flow: Some(Named(smoothing.curvature_flow)),
             strength: Some(widen(smoothing.strength)),
             iterations: Some(smoothing.iterations),
             filter_max_px: Some(smoothing.max_radius_px),
@@ -222,6 +231,7 @@ impl Options {
 
         let smoothing = &mut settings.smoothing;
         smoothing.filter = self.filter.map_or(smoothing.filter, |filter| filter.0);
+        smoothing.curvature_flow = self.curvature_flow.map_or(smoothing.curvature_flow, |form| form.0);
         set(&mut smoothing.strength, self.strength);
         smoothing.iterations = self.iterations.unwrap_or(smoothing.iterations);
         smoothing.max_radius_px = self.filter_max_px.unwrap_or(smoothing.max_radius_px);

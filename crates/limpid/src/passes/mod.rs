@@ -1,6 +1,7 @@
 //! The passes of a frame, in the order of their names here; each is one file beside its WGSL.
 
 mod composite;
+mod curvature;
 mod normals;
 mod shade;
 mod smooth;
@@ -10,6 +11,7 @@ mod tiles;
 mod upsample;
 
 pub(crate) use composite::Composite;
+pub(crate) use curvature::Curvature;
 pub(crate) use normals::Normals;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
 pub(crate) use smooth::Smooth;

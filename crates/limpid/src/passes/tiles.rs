@@ -12,12 +12,12 @@ pub(crate) struct Tiles {
 impl Tiles {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(device, "tiles", "../frame.wgsl", "tiles.wgsl");
-        let slots = [Slot::Write, Slot::Write, Slot::Write, Slot::Write, Slot::Read];
+        let slots = [Slot::Write, Slot::Write, Slot::Write, Slot::Write, Slot::Read, Slot::Write];
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &slots);
         Self { list: kernel("list_tiles"), count: kernel("count_tiles") }
     }
 
-    /// Fills `targets.tiles` and readies the smoothing buffers.
+    /// Fills `targets.tiles` and `targets.occupied`, and readies the smoothing buffers.
     pub fn encode(&self, recorder: &mut Recorder<'_>, targets: &Targets) {
         recorder.encoder.clear_buffer(&targets.tiles, 0, Some(16));
         let resources = [
@@ -26,6 +26,7 @@ impl Tiles {
             targets.smooth[0].as_entire_binding(),
             targets.smooth[1].as_entire_binding(),
             targets.covered.as_entire_binding(),
+            targets.occupied.as_entire_binding(),
         ];
         let name = "smooth/tiles";
         recorder.run(name, &self.list, &resources, &Grid::Items(targets.tile_count(), 64));

@@ -6,6 +6,7 @@
 @group(1) @binding(2) var<storage, read_write> ping: array<f32>;
 @group(1) @binding(3) var<storage, read_write> pong: array<f32>;
 @group(1) @binding(4) var<storage, read> covered: array<u32>; // splat.wgsl's, per block
+@group(1) @binding(5) var<storage, read_write> occupied: array<u32>; // 1 for each tile that is listed, in rows
 
 struct Tiles {
     groups: vec3u, // indirect dispatch of one group for each tile
@@ -42,6 +43,7 @@ fn list_tiles(
             nearest = max(nearest, raw[index]);
         }
     }
+    occupied[item] = u32(nearest > 0.0);
     if nearest > 0.0 {
         tiles.positions[atomicAdd(&tiles.count, 1u)] = tile.x | (tile.y << 16u);
         return;

@@ -6,6 +6,8 @@ mod reference;
 mod common;
 
 mod composite;
+mod curvature_flow;
+mod gaussian_windows;
 mod large_splats;
 mod laws;
 mod narrow_range;

@@ -55,7 +55,7 @@ fn settings() {
         ("strength", smoothed(Smoothing { strength: -1.0, ..smoothing })),
         ("strength", smoothed(Smoothing { strength: 21.0, ..smoothing })),
         ("iterations", smoothed(Smoothing { iterations: 0, ..smoothing })),
-        ("iterations", smoothed(Smoothing { iterations: 101, ..smoothing })),
+        ("iterations", smoothed(Smoothing { iterations: 100_000, ..smoothing })),
         ("max radius", smoothed(Smoothing { max_radius_px: 0, ..smoothing })),
         ("range", smoothed(Smoothing { range: 0.0, ..smoothing })),
         ("clamp", smoothed(Smoothing { clamp: -1.0, ..smoothing })),

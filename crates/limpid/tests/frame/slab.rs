@@ -2,7 +2,6 @@
 
 use crate::common::{Cloud, Difference, Rendered, above, above_perspective, render, shot_of};
 use crate::reference::Camera;
-use glam::DVec3;
 use limpid::{Filter, Scale, Settings, Smoothing, View};
 
 const RADIUS: f64 = 0.05;
@@ -25,7 +24,7 @@ fn inner_pixels(view: View) -> Vec<usize> {
     let camera = Camera::new(view, SIZE);
     let half = RADIUS * (f64::from(ACROSS) - MARGIN_R);
     let sees_inside = |px| {
-        let depth = camera.view.view_from_world.inverse().transform_point3(DVec3::ZERO).y;
+        let depth = view.eye().y;
         let seen = world_from_view.transform_point3(camera.ray(px).at(depth));
         seen.x.abs() < half && seen.z.abs() < half
     };
@@ -88,10 +87,7 @@ fn relative_thickness(view: View, splat_scale: f32, thickness_scale: Scale) -> V
         Settings { splat_scale, thickness_scale, smoothing: Smoothing::of(Filter::None), ..Settings::default() };
     let rendered = render(&shot_of(&slab(0.0), view, SIZE, settings));
     let camera = Camera::new(view, SIZE);
-    let depth = |i: usize| {
-        let px = camera.pixels().nth(i).unwrap().1;
-        2.0 * RADIUS * f64::from(LAYERS) * camera.ray(px).direction.length()
-    };
+    let depth = |i: usize| 2.0 * RADIUS * f64::from(LAYERS) * camera.ray(camera.center_of(i)).direction.length();
     inner_pixels(view).into_iter().map(|i| f64::from(rendered.thickness[i]) / depth(i)).collect()
 }
 

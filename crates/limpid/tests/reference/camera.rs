@@ -1,12 +1,13 @@
 //! Pixels, rays and view space.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 use limpid::View;
 
 /// A view of a picture of so many pixels.
 pub struct Camera {
     pub view: View,
     pub size: [u32; 2],
+    view_from_clip: DMat4,
 }
 
 /// Points origin + depth * direction; direction.z is -1, so that the parameter is the view depth.
@@ -24,7 +25,7 @@ impl Ray {
 
 impl Camera {
     pub fn new(view: View, size: [u32; 2]) -> Self {
-        Self { view, size }
+        Self { view, size, view_from_clip: view.clip_from_view.inverse() }
     }
 
     pub fn pixel_count(&self) -> usize {
@@ -32,9 +33,14 @@ impl Camera {
     }
 
     /// Every pixel's index and centre, in rows.
-    pub fn pixels(&self) -> impl Iterator<Item = (usize, DVec2)> + use<> {
+    pub fn pixels(&self) -> impl Iterator<Item = (usize, DVec2)> {
+        (0..self.pixel_count()).map(|i| (i, self.center_of(i)))
+    }
+
+    /// The centre of the pixel of an index.
+    pub fn center_of(&self, index: usize) -> DVec2 {
         let width = self.size[0] as usize;
-        (0..self.pixel_count()).map(move |i| (i, DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5)))
+        DVec2::new((index % width) as f64 + 0.5, (index / width) as f64 + 0.5)
     }
 
     /// The index of the pixel around a position, the nearest one for positions outside.
@@ -49,7 +55,7 @@ impl Camera {
         let size = DVec2::new(self.size[0].into(), self.size[1].into());
         let ndc = DVec2::new(2.0 * px.x / size.x - 1.0, 1.0 - 2.0 * px.y / size.y);
         // Any point of the ray will do.
-        let seen = self.view.clip_from_view.inverse().project_point3(ndc.extend(0.5));
+        let seen = self.view_from_clip.project_point3(ndc.extend(0.5));
         if self.view.is_perspective() {
             Ray { origin: DVec3::ZERO, direction: seen / -seen.z }
         } else {

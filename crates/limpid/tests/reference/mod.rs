@@ -3,16 +3,20 @@
 //! Images are rows of values, row 0 at the top. Depths are positive view depths, +infinity where there is no fluid.
 
 mod camera;
+mod curvature_flow;
 mod environment;
 mod narrow_range;
+mod nearness;
 mod normals;
 mod shade;
 mod shadow;
 mod splat;
 mod thickness;
 mod upsample;
+mod window;
 
 pub use camera::{Camera, Ray};
+pub use curvature_flow::{curvature_flow, mean_curvature};
 pub use environment::{Scene, Surroundings, scene_of};
 pub use narrow_range::narrow_range;
 pub use normals::normals;
@@ -21,3 +25,4 @@ pub use shadow::Shadow;
 pub use splat::{Ball, balls_of, raw_depth};
 pub use thickness::{blurred, liquid, upsampled};
 pub use upsample::{Surface, upsampled as upsampled_surface};
+pub use window::windowed;

@@ -1,7 +1,7 @@
 //! The narrow-range filter: `narrow_range.wgsl`.
 
-use super::Step;
-use crate::gpu::{Kernel, Slot};
+use super::{PIXEL_SLOTS, Step, Work};
+use crate::gpu::Kernel;
 use crate::passes::module;
 
 pub(super) struct NarrowRange {
@@ -13,17 +13,17 @@ pub(super) struct NarrowRange {
 impl NarrowRange {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(device, "narrow range", "../../frame.wgsl", "../tile_pixel.wgsl", "narrow_range.wgsl");
-        let kernel = |entry| Kernel::new(device, frame, &module, entry, &[Slot::Read, Slot::Read, Slot::Write]);
+        let kernel = |entry| Kernel::new(device, frame, &module, entry, &PIXEL_SLOTS);
         Self { x: kernel("narrow_range_x"), y: kernel("narrow_range_y"), cleanup: kernel("narrow_range_cleanup") }
     }
 
     pub fn steps(&self, iterations: u32) -> Vec<Step<'_>> {
         let mut steps = Vec::new();
         for _ in 0..iterations {
-            steps.push(("narrow-range-x", &self.x));
-            steps.push(("narrow-range-y", &self.y));
+            steps.push(("narrow-range-x", &self.x, Work::Pixels));
+            steps.push(("narrow-range-y", &self.y, Work::Pixels));
         }
-        steps.push(("narrow-range-cleanup", &self.cleanup));
+        steps.push(("narrow-range-cleanup", &self.cleanup, Work::Pixels));
         steps
     }
 }

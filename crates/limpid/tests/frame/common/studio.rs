@@ -20,6 +20,7 @@ pub struct Rendered {
     pub depth: Vec<f32>,
     pub thickness: Vec<f32>,
     pub normal: Vec<Vec3>,
+    pub curvature: Vec<f32>,
     pub color: Vec<Vec4>,
     pub rgba: Vec<u8>,
 }
@@ -58,6 +59,7 @@ pub fn try_render(shot: &Shot<'_>) -> Result<Rendered, Error> {
         depth: values(Aov::Depth).clone(),
         thickness: values(Aov::Thickness).clone(),
         normal: values(Aov::Normal).as_chunks().0.iter().map(|v| Vec3::from_array(*v)).collect(),
+        curvature: values(Aov::Curvature).clone(),
         color: values(Aov::Color).as_chunks().0.iter().map(|v| Vec4::from_array(*v)).collect(),
         rgba: picture.rgba,
     })

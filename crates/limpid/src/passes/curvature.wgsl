@@ -1,0 +1,44 @@
+// Mean curvature of the smoothed surface per world length, positive where it bulges toward the viewer; 0 where one of a
+// pixel's neighbours is missing or of another sheet.
+//
+// 2 H is the divergence of the unit normal, here the one away from the viewer, negated. A normal field that is constant
+// along each ray (p, q, 1) has, in perspective, the divergence u (N_x,p + N_y,q - p N_z,p - q N_z,q), u = 1 / z.
+
+@group(1) @binding(0) var<storage, read> nearness: array<f32>;
+@group(1) @binding(1) var<storage, read_write> curvature: array<f32>; // of the picture's pixels
+
+fn nearness_at(at: vec2i) -> f32 {
+    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
+        return 0.0;
+    }
+    return nearness[u32(at.y) * view.size.x + u32(at.x)];
+}
+
+// Change of the unit normal over a pixel, per unit of the ray's slope (perspective) or of length (orthographic); w: 1, or
+// 0 where a neighbour is missing.
+fn normal_change(at: vec2i, axis: vec2i, sheet_step: f32) -> vec4f {
+    let behind = line_pixel(at - axis, axis.yx, sheet_step);
+    let center = line_pixel(at, axis.yx, sheet_step);
+    let ahead = line_pixel(at + axis, axis.yx, sheet_step);
+    let whole = is_sheet(behind.nearness, center.nearness, sheet_step) & is_sheet(center.nearness, ahead.nearness, sheet_step);
+    if !whole {
+        return vec4f(0.0);
+    }
+    let change = normalize(normal_between(at, axis, center, ahead)) - normalize(normal_between(at - axis, axis, behind, center));
+    return vec4f(change / dot(vec2f(axis), view.px_step), 1.0);
+}
+
+@compute @workgroup_size(8, 8)
+fn mean_curvature(@builtin(global_invocation_id) pixel: vec3u) {
+    if any(pixel.xy >= settings.picture_size) {
+        return;
+    }
+    let at = vec2i((vec2f(pixel.xy) + 0.5) / settings.fluid_scale);
+    let sheet_step = settings.normal_step * settings.radius;
+    let over_x = normal_change(at, vec2i(1, 0), sheet_step);
+    let over_y = normal_change(at, vec2i(0, 1), sheet_step);
+    let ray = pixel_ray(vec2f(at) + 0.5).direction.xy;
+    let divergence = over_x.x - ray.x * over_x.z + over_y.y - ray.y * over_y.z;
+    let per_world = select(1.0, nearness_at(at), is_perspective());
+    curvature[pixel.y * settings.picture_size.x + pixel.x] = -0.5 * per_world * divergence * over_x.w * over_y.w;
+}

@@ -1,0 +1,23 @@
+//! The Gaussian filter: `gaussian.wgsl`.
+
+use super::{PIXEL_SLOTS, Step, Work};
+use crate::gpu::Kernel;
+use crate::passes::module;
+
+pub(super) struct Gaussian {
+    x: Kernel,
+    y: Kernel,
+}
+
+impl Gaussian {
+    pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let module =
+            module!(device, "gaussian", "../../frame.wgsl", "../tile_pixel.wgsl", "taps.wgsl", "gaussian.wgsl");
+        let kernel = |entry| Kernel::new(device, frame, &module, entry, &PIXEL_SLOTS);
+        Self { x: kernel("gaussian_x"), y: kernel("gaussian_y") }
+    }
+
+    pub fn steps(&self, iterations: u32) -> Vec<Step<'_>> {
+        [("gaussian-x", &self.x, Work::Pixels), ("gaussian-y", &self.y, Work::Pixels)].repeat(iterations as usize)
+    }
+}

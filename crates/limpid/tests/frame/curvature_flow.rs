@@ -1,0 +1,154 @@
+//! Curvature flow and the mean curvature against their twins, and the laws they obey.
+
+use crate::common::{
+    Cloud, Difference, Random, Rendered, SIZE, forward, forward_orthographic, looking, render, shot_of,
+};
+use crate::reference::{Camera, curvature_flow, mean_curvature};
+use glam::DVec3;
+use limpid::{CurvatureFlow, Settings, Smoothing, View};
+
+const FORMS: [CurvatureFlow; 2] = [CurvatureFlow::Implicit, CurvatureFlow::Explicit];
+
+fn smoothed(cloud: &Cloud, view: View, size: [u32; 2], smoothing: Smoothing) -> Rendered {
+    render(&shot_of(cloud, view, size, Settings { smoothing, ..Settings::default() }))
+}
+
+fn dam_break_view() -> View {
+    looking([2.9, 2.5, 5.4], [0.0, 1.2, 0.0], SIZE)
+}
+
+fn f64s(values: &[f32]) -> Vec<f64> {
+    values.iter().map(|value| f64::from(*value)).collect()
+}
+
+fn compare(what: &str, cloud: &Cloud, view: View) {
+    let camera = Camera::new(view, SIZE);
+    for form in FORMS {
+        let smoothing = Smoothing { iterations: 5, strength: 1.0, ..Smoothing::flow(form) };
+        let rendered = smoothed(cloud, view, SIZE, smoothing);
+        let expected = curvature_flow(&camera, &f64s(&rendered.raw_depth), &smoothing, cloud.radius());
+        let same = rendered.depth.iter().zip(&expected).all(|(a, b)| a.is_finite() == b.is_finite());
+        assert!(same, "{what}: the silhouette moved");
+        let off = Difference::of_depth(&rendered.depth, &expected);
+        off.assert(&format!("{what}, {form:?}"), 2e-3 * cloud.radius(), 1e-2 * cloud.radius());
+        let step = f64::from(Settings::default().normal_step) * cloud.radius();
+        let expected = mean_curvature(&camera, &f64s(&rendered.depth), step);
+        let curvatures = rendered.curvature.iter().zip(&expected);
+        let off = Difference::new(curvatures.map(|(rendered, expected)| f64::from(*rendered) - expected));
+        off.assert(&format!("{what}, {form:?}, curvature"), 0.02 / cloud.radius(), 0.05 / cloud.radius());
+    }
+}
+
+#[test]
+fn twins() {
+    let random = Cloud::random(60, 4000, [[-2.0, -1.0, -4.0], [2.0, 1.0, -1.0]], [0.015, 0.04]);
+    compare("random", &random, forward(60.0, 0.05, SIZE));
+    compare("orthographic", &random, forward_orthographic(2.0, 0.05, 5.0, SIZE));
+    compare("dam break", &Cloud::dam_break(), dam_break_view());
+}
+
+/// Mean |H| where all neighbours are there.
+fn mean_curvature_of(rendered: &Rendered) -> f64 {
+    let inside: Vec<f64> = f64s(&rendered.curvature).into_iter().filter(|h| *h != 0.0).map(f64::abs).collect();
+    inside.iter().sum::<f64>() / inside.len() as f64
+}
+
+#[test]
+fn curvature_falls_with_every_iteration() {
+    let cloud = Cloud::dam_break();
+    for form in FORMS {
+        let mut before = f64::INFINITY;
+        for iterations in 1..=6 {
+            let strength = 0.3 * (iterations as f32).sqrt();
+            let smoothing = Smoothing { iterations, strength, ..Smoothing::flow(form) };
+            let after = mean_curvature_of(&smoothed(&cloud, dam_break_view(), SIZE, smoothing));
+            assert!(after < before, "{form:?}: {before} became {after} in iteration {iterations}");
+            before = after;
+        }
+    }
+}
+
+#[test]
+fn a_hundred_explicit_iterations_leave_a_fifth_of_the_curvature() {
+    let cloud = Cloud::dam_break();
+    let raw = smoothed(&cloud, dam_break_view(), SIZE, Smoothing::of(limpid::Filter::None));
+    let smoothing = Smoothing { strength: 20.0, ..Smoothing::flow(CurvatureFlow::Explicit) };
+    let smooth = smoothed(&cloud, dam_break_view(), SIZE, smoothing);
+    let (raw, smooth) = (mean_curvature_of(&raw), mean_curvature_of(&smooth));
+    println!("mean |H| from {raw:.2} to {smooth:.2}");
+    assert!(smooth < 0.2 * raw);
+}
+
+/// A picture of any depths: one tiny ball for each pixel, and unseen ones behind the camera that set r.
+fn picture(view: View, size: [u32; 2], depth: impl Fn(usize, DVec3) -> Option<f64>, radius: f32) -> Cloud {
+    let camera = Camera::new(view, size);
+    let mut cloud = Cloud::default();
+    for (index, px) in camera.pixels() {
+        let ray = camera.ray(px);
+        if let Some(depth) = depth(index, ray.direction) {
+            cloud.positions.push(ray.at(depth).as_vec3().into());
+            cloud.radii.push((0.1 / camera.px_per_world(depth)) as f32);
+        }
+    }
+    let behind = cloud.positions.len() + 1;
+    cloud.positions.extend(std::iter::repeat_n([0.0, 0.0, 50.0], behind));
+    cloud.radii.extend(std::iter::repeat_n(radius, behind));
+    cloud
+}
+
+const RADIUS: f32 = 0.05;
+
+#[test]
+fn planes_stay() {
+    let size = [160, 100];
+    let view = forward(45.0, 0.05, size);
+    for (degrees, allowed) in [(0.0, 0.0), (30.0, 1e-4), (60.0, 1e-4)] {
+        let normal = DVec3::new(f64::sin(f64::to_radians(degrees)), 0.0, f64::cos(f64::to_radians(degrees)));
+        let cloud = picture(view, size, |_, ray| Some(-3.0 * normal.z / normal.dot(ray)), RADIUS);
+        for form in FORMS {
+            let rendered = smoothed(&cloud, view, size, Smoothing::flow(form));
+            let off = Difference::of_depth(&rendered.depth, &f64s(&rendered.raw_depth));
+            // A plane of equal raw depths must stay bit for bit; the balls' own rounding blurs others a little.
+            println!("{degrees} degrees, {form:?}: {:.2e} r", off.max() / f64::from(RADIUS));
+            assert!(off.max() <= (allowed + 2e-4) * f64::from(RADIUS), "{degrees} degrees, {form:?}: {:e}", off.max());
+        }
+    }
+}
+
+#[test]
+fn single_pixels_do_not_explode() {
+    let size = [96, 64];
+    let view = forward(45.0, 0.05, size);
+    let mut random = Random(3);
+    let bumps: Vec<Option<f64>> = (0..size[0] * size[1])
+        .map(|_| Some(3.0 - f64::from(RADIUS) * random.between(-1.0, 1.0)).filter(|_| random.between(0.0, 1.0) > 0.1))
+        .collect();
+    let cloud = picture(view, size, |index, _| bumps[index], RADIUS);
+    for form in FORMS {
+        for strength in [1.0, 20.0] {
+            let smoothing = Smoothing { iterations: 500, strength, ..Smoothing::flow(form) };
+            let rendered = smoothed(&cloud, view, size, smoothing);
+            let off = Difference::new(rendered.depth.iter().filter(|z| z.is_finite()).map(|z| f64::from(*z) - 3.0));
+            assert!(off.max() < 1.5 * f64::from(RADIUS), "{form:?}, strength {strength}: {}", off.max());
+        }
+    }
+}
+
+#[test]
+fn nothing_crosses_a_silhouette() {
+    let size = [96, 64];
+    let view = forward(45.0, 0.05, size);
+    let in_front = |index: usize| (index % 96 / 16 + index / 96 / 16).is_multiple_of(2);
+    for form in FORMS {
+        let back = |seed| {
+            let mut random = Random(seed);
+            let front: Vec<f64> = (0..96 * 64).map(|_| random.between(2.0, 2.05)).collect();
+            let depth =
+                |index: usize, _| Some(if in_front(index) { front[index] } else { 3.0 + 0.001 * (index % 7) as f64 });
+            let rendered = smoothed(&picture(view, size, depth, RADIUS), view, size, Smoothing::flow(form));
+            let pixels = rendered.depth.iter().enumerate();
+            pixels.filter(|(index, _)| !in_front(*index)).map(|(_, depth)| *depth).collect::<Vec<f32>>()
+        };
+        assert_eq!(back(1), back(2), "{form:?}");
+    }
+}
