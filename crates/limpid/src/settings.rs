@@ -114,11 +114,11 @@ pub struct Smoothing {
     pub iterations: u32,
     /// Largest half-width of the filter in pixels, 1 to 256, default 100: bounds the cost of a close-up.
     pub max_radius_px: u32,
-    /// What belongs to one surface, in r. Narrow-range: depths within this of the surface already accepted, default 10.
+    /// What belongs to one surface, in r. Narrow-range: depths within this of the surface already accepted, default 4.
     /// Bilateral: the standard deviation of its Gaussian over depth, default 2. Curvature flow: neighbouring pixels within
     /// this, default 2.
     pub range: f32,
-    /// Narrow-range only: samples behind the range count as this many r behind the centre; default 1.
+    /// Narrow-range only: samples behind the range count as this many r behind the centre; default 1.5.
     pub clamp: f32,
     /// Bilateral only: the exact filter in two dimensions instead of its two passes; slow, to compare with. Default off.
     pub exact_2d: bool,
@@ -137,11 +137,11 @@ impl Smoothing {
     pub const fn of(filter: Filter) -> Self {
         let narrow_range = Self {
             filter,
-            strength: 1.5,
+            strength: 1.65,
             iterations: 1,
             max_radius_px: 100,
-            range: 10.0,
-            clamp: 1.0,
+            range: 4.0,
+            clamp: 1.5,
             exact_2d: false,
             curvature_flow: CurvatureFlow::Implicit,
         };

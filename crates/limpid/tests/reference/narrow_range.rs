@@ -95,10 +95,10 @@ pub fn narrow_range(camera: &Camera, raw_depth: &[f64], smoothing: &Smoothing, r
     filter(&depth, &|filter| cleanup(filter, sigma_world))
 }
 
-/// One axis: a window of two standard deviations, whose sides keep their ranges as they go outward.
+/// One axis: a window of two and a half standard deviations, whose sides keep their ranges as they go outward.
 fn along(filter: &Filter<'_>, axis: [i64; 2], sigma_world: f64, max_radius_px: u32) -> Vec<f64> {
     filter.moved(sigma_world, |at, center, sigma_px| {
-        let reach = (2.0 * sigma_px).ceil().min(max_radius_px.into()) as i64;
+        let reach = (2.5 * sigma_px).ceil().min(max_radius_px.into()) as i64;
         let mut sides = [filter.side(), filter.side()];
         let (mut sum, mut weights) = (0.0, 1.0);
         for i in 1..=reach {

@@ -5,7 +5,7 @@
 @group(1) @binding(2) var<storage, read_write> output: array<f32>;
 
 // Half-width of the Gaussian window in standard deviations.
-const REACH: f32 = 2.0;
+const REACH: f32 = 2.5;
 const CLEANUP_PX: i32 = 2;
 
 struct Side {
