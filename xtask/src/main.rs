@@ -4,6 +4,7 @@ mod checks;
 mod data;
 mod demo;
 mod driver;
+mod figures;
 mod golden;
 mod shell;
 mod shots;
@@ -17,6 +18,7 @@ Usage: cargo xtask VERB
   demo              render the particle data of this repository to pictures in out/demo
   test              everything: format, lints, tests, docs, WebAssembly, size of the data
   check             the quick part of it: format, lints, tests that need no GPU
+  figures           render the comparison pictures of docs/filters.md
   golden            compare with the golden pictures
   golden --accept   make what is rendered now the golden pictures
 
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         ["demo"] => demo::render_all(),
         ["test"] => checks::everything(),
         ["check"] => checks::quick(),
+        ["figures"] => figures::render_all(),
         ["golden"] => golden::compare(),
         ["golden", "--accept"] => golden::accept(),
         [] | ["help" | "--help" | "-h"] => {
