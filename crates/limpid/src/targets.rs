@@ -1,7 +1,7 @@
 //! The images of one frame, made anew when its size changes.
 
 use crate::gpu::storage_buffer;
-use crate::passes::pyramid_texels;
+use crate::passes::{pieces_bytes, pyramid_texels};
 use crate::{Error, Scale, Settings};
 
 /// `frame.wgsl`'s `BLOCK`.
@@ -29,6 +29,8 @@ pub(crate) struct Targets {
     pub occupied: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
+    /// Pieces of the lines that curvature flow solves.
+    pub pieces: wgpu::Buffer,
     /// u32 fixed-point thickness pyramid.
     pub thickness_sums: wgpu::Buffer,
     pub levels_used: wgpu::Buffer,
@@ -90,6 +92,7 @@ impl Targets {
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
+            pieces: image("pieces", pieces_bytes(size)),
             thickness_sums: image("thickness sums", 4 * pyramid_texels(thickness_size)),
             levels_used: image("thickness levels used", 4),
             thickness: [image("thickness a", 4 * thickness_texels), image("thickness b", 4 * thickness_texels)],
