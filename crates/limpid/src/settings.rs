@@ -156,7 +156,13 @@ impl Smoothing {
             CurvatureFlow::Implicit => 8,
             CurvatureFlow::Explicit => 100,
         };
-        Self { filter: Filter::CurvatureFlow, strength: 2.2, iterations, curvature_flow: form, ..Self::of(Filter::None) }
+        Self {
+            filter: Filter::CurvatureFlow,
+            strength: 2.2,
+            iterations,
+            curvature_flow: form,
+            ..Self::of(Filter::None)
+        }
     }
 }
 
