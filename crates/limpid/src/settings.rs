@@ -106,17 +106,17 @@ pub enum CurvatureFlow {
 pub struct Smoothing {
     /// Which filter.
     pub filter: Filter,
-    /// Smoothing length in r, 0 to 20: the standard deviation of the filter's Gaussian over the surface, the same
-    /// meaning for every filter.
+    /// Smoothing length in r, 0 to 20, default 1.5 (Gaussian 1.3, curvature flow 2.2): the standard deviation of the
+    /// filter's Gaussian over the surface, the same meaning for every filter.
     pub strength: f32,
-    /// How often the filter is applied, 1 to 1000, default 1 (curvature flow: 6, or 100 in the explicit form). They
+    /// How often the filter is applied, 1 to 1000, default 1 (curvature flow: 8, or 100 in the explicit form). They
     /// share the smoothing length: more of them do not smooth more.
     pub iterations: u32,
     /// Largest half-width of the filter in pixels, 1 to 256, default 100: bounds the cost of a close-up.
     pub max_radius_px: u32,
     /// What belongs to one surface, in r. Narrow-range: depths within this of the surface already accepted, default 4.
-    /// Bilateral: the standard deviation of its Gaussian over depth, default 2. Curvature flow: neighbouring pixels within
-    /// this, default 2.
+    /// Bilateral: the standard deviation of its Gaussian over depth, default 6. Curvature flow: neighbouring pixels within
+    /// this, default 10.
     pub range: f32,
     /// Narrow-range only: samples behind the range count as this many r behind the centre; default 1.5.
     pub clamp: f32,
@@ -146,8 +146,9 @@ impl Smoothing {
             curvature_flow: CurvatureFlow::Implicit,
         };
         match filter {
-            Filter::None | Filter::Gaussian | Filter::NarrowRange => narrow_range,
-            Filter::Bilateral => Self { range: 2.0, ..narrow_range },
+            Filter::None | Filter::NarrowRange => narrow_range,
+            Filter::Gaussian => Self { strength: 1.3, ..narrow_range },
+            Filter::Bilateral => Self { strength: 1.5, range: 6.0, ..narrow_range },
             Filter::CurvatureFlow => Self::flow(CurvatureFlow::Implicit),
         }
     }
@@ -155,10 +156,17 @@ impl Smoothing {
     /// The defaults of one form of curvature flow.
     pub const fn flow(form: CurvatureFlow) -> Self {
         let iterations = match form {
-            CurvatureFlow::Implicit => 6,
+            CurvatureFlow::Implicit => 8,
             CurvatureFlow::Explicit => 100,
         };
-        Self { filter: Filter::CurvatureFlow, iterations, range: 2.0, curvature_flow: form, ..Self::of(Filter::None) }
+        Self {
+            filter: Filter::CurvatureFlow,
+            strength: 2.2,
+            iterations,
+            range: 10.0,
+            curvature_flow: form,
+            ..Self::of(Filter::None)
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The images of one frame, made anew when its size changes.
 
 use crate::gpu::storage_buffer;
-use crate::passes::pyramid_texels;
+use crate::passes::{pieces_bytes, pyramid_texels};
 use crate::{Error, Scale, Settings};
 
 /// `frame.wgsl`'s `BLOCK`.
@@ -28,6 +28,8 @@ pub(crate) struct Targets {
     pub occupied: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
+    /// Pieces of the lines that curvature flow solves.
+    pub pieces: wgpu::Buffer,
     pub thickness: ThicknessImages,
     /// vec4: view-space normal, thickness in world units.
     pub surface: wgpu::Buffer,
@@ -107,6 +109,7 @@ impl Targets {
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
+            pieces: image("pieces", pieces_bytes(size)),
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size)),
             surface: image("surface", 16 * pixels),
             shaded: image("shaded", 16 * pixels),

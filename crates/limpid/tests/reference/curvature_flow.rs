@@ -84,7 +84,7 @@ impl Flow {
             let row = |i: i64| {
                 let mobility = self.mobility(image, image.at(place(i)))[axis];
                 let (conductances, flux) = self.around(image, place(i), AXES[axis]);
-                let [behind, ahead] = conductances.map(|conductance| 0.7 * mobility * conductance);
+                let [behind, ahead] = conductances.map(|conductance| 0.6 * mobility * conductance);
                 [-behind, 1.0 + behind + ahead, -ahead, mobility * flux]
             };
             for (i, change) in (0..).zip(tridiagonal((0..length).map(row))) {

@@ -21,9 +21,9 @@ impl Bilateral {
     pub fn steps(&self, iterations: u32, exact_2d: bool) -> Vec<Step<'_>> {
         let iterations = iterations as usize;
         if exact_2d {
-            [("bilateral-2d", &self.exact, Work::Pixels)].repeat(iterations)
+            [("bilateral-2d", Work::Pixels(&self.exact))].repeat(iterations)
         } else {
-            [("bilateral-x", &self.x, Work::Pixels), ("bilateral-y", &self.y, Work::Pixels)].repeat(iterations)
+            [("bilateral-x", Work::Pixels(&self.x)), ("bilateral-y", Work::Pixels(&self.y))].repeat(iterations)
         }
     }
 }

@@ -6,8 +6,8 @@ use crate::passes::module;
 use crate::settings::CurvatureFlow as Form;
 
 pub(super) struct CurvatureFlow {
-    rows: Kernel,
-    columns: Kernel,
+    rows: [Kernel; 3],
+    columns: [Kernel; 3],
     explicit: Kernel,
 }
 
@@ -24,20 +24,20 @@ impl CurvatureFlow {
             "flow.wgsl",
             "curvature_flow_explicit.wgsl"
         );
-        let lines = |entry| Kernel::new(device, frame, &implicit, entry, &LINE_SLOTS);
+        let line = |entry| Kernel::new(device, frame, &implicit, entry, &LINE_SLOTS);
         Self {
-            rows: lines("curvature_flow_rows"),
-            columns: lines("curvature_flow_columns"),
+            rows: ["eliminate_rows", "solve_ends_of_rows", "substitute_rows"].map(line),
+            columns: ["eliminate_columns", "solve_ends_of_columns", "substitute_columns"].map(line),
             explicit: Kernel::new(device, frame, &explicit, "curvature_flow_explicit", &PIXEL_SLOTS),
         }
     }
 
     pub fn steps(&self, iterations: u32, form: Form) -> Vec<Step<'_>> {
         let iterations = iterations as usize;
-        let rows = ("curvature-flow-rows", &self.rows, Work::Rows);
-        let columns = ("curvature-flow-columns", &self.columns, Work::Columns);
+        let rows = ("curvature-flow-rows", Work::Rows(&self.rows));
+        let columns = ("curvature-flow-columns", Work::Columns(&self.columns));
         match form {
-            Form::Explicit => [("curvature-flow-explicit", &self.explicit, Work::Pixels)].repeat(iterations),
+            Form::Explicit => [("curvature-flow-explicit", Work::Pixels(&self.explicit))].repeat(iterations),
             // The axes take turns at going first, which cancels what the first gets wrong.
             Form::Implicit => [rows, columns, columns, rows].into_iter().cycle().take(2 * iterations).collect(),
         }

@@ -18,6 +18,6 @@ impl Gaussian {
     }
 
     pub fn steps(&self, iterations: u32) -> Vec<Step<'_>> {
-        [("gaussian-x", &self.x, Work::Pixels), ("gaussian-y", &self.y, Work::Pixels)].repeat(iterations as usize)
+        [("gaussian-x", Work::Pixels(&self.x)), ("gaussian-y", Work::Pixels(&self.y))].repeat(iterations as usize)
     }
 }

@@ -20,26 +20,32 @@ pub(crate) struct Smooth {
     narrow_range: NarrowRange,
 }
 
-/// One step of a filter: its name under `smooth/` and its kernel.
-type Step<'a> = (&'static str, &'a Kernel, Work);
+/// One step of a filter: its name under `smooth/` and what it runs.
+type Step<'a> = (&'static str, Work<'a>);
 
-/// What a step runs over, and so what it binds.
 #[derive(Clone, Copy)]
-enum Work {
-    /// The listed tiles, a lane for each pixel: tiles, input, output.
-    Pixels,
-    /// Rows of tiles: occupied tiles, input, output, 8 bytes of scratch for each pixel.
-    Rows,
-    /// Columns of tiles, likewise.
-    Columns,
+enum Work<'a> {
+    /// A lane for each pixel of the listed tiles.
+    Pixels(&'a Kernel),
+    /// Whole rows: a lane for each piece, for each row, and for each piece again.
+    Rows(&'a [Kernel; 3]),
+    /// Whole columns, likewise.
+    Columns(&'a [Kernel; 3]),
 }
 
-/// Bindings of a step over [`Work::Pixels`].
+/// Bindings of [`Work::Pixels`]: tiles, input, output.
 const PIXEL_SLOTS: [Slot; 3] = [Slot::Read, Slot::Read, Slot::Write];
-/// Bindings of a step over rows or columns.
-const LINE_SLOTS: [Slot; 4] = [Slot::Read, Slot::Read, Slot::Write, Slot::Write];
-/// Rows or columns of one group: `curvature_flow.wgsl`'s `LINES`.
-const LINES: u64 = 8;
+/// Bindings of rows and columns: occupied tiles, input, output, 8 bytes of scratch for each pixel, the lines' pieces.
+const LINE_SLOTS: [Slot; 5] = [Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write];
+/// Pieces of a line: `curvature_flow.wgsl`'s `CHUNKS`.
+const CHUNKS: u64 = 32;
+/// Bytes of `curvature_flow.wgsl`'s `Piece`.
+const PIECE: u64 = 24;
+
+/// Bytes of all pieces of the longer side's lines.
+pub(crate) fn pieces_bytes(size: [u32; 2]) -> u64 {
+    u64::from(size[0].max(size[1])) * CHUNKS * PIECE
+}
 
 impl Smooth {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
@@ -69,21 +75,39 @@ impl Smooth {
         targets: &'t Targets,
     ) -> &'t wgpu::Buffer {
         let mut input = &targets.raw;
-        for (i, (name, kernel, work)) in self.steps(smoothing).into_iter().enumerate() {
+        for (i, (name, work)) in self.steps(smoothing).into_iter().enumerate() {
             let output = &targets.smooth[i % 2];
-            let whole = wgpu::Buffer::as_entire_binding;
-            let [from, to] = [input, output].map(whole);
-            // The surface is scratch: it is written only after the filter.
-            let lines = [whole(&targets.occupied), from.clone(), to.clone(), whole(&targets.surface)];
-            let pixels = [whole(&targets.tiles), from, to];
-            let (resources, grid) = match work {
-                Work::Pixels => (&pixels[..], Grid::Indirect(&targets.tiles)),
-                Work::Rows => (&lines[..], Grid::Items(targets.size[1].into(), LINES)),
-                Work::Columns => (&lines[..], Grid::Items(targets.size[0].into(), LINES)),
-            };
-            recorder.run(&format!("smooth/{name}"), kernel, resources, &grid);
+            let name = format!("smooth/{name}");
+            let [across, down] = targets.size;
+            match work {
+                Work::Pixels(kernel) => {
+                    let resources = [&targets.tiles, input, output].map(wgpu::Buffer::as_entire_binding);
+                    recorder.run(&name, kernel, &resources, &Grid::Indirect(&targets.tiles));
+                }
+                Work::Rows(kernels) => run_lines(recorder, &name, kernels, input, output, targets, down),
+                Work::Columns(kernels) => run_lines(recorder, &name, kernels, input, output, targets, across),
+            }
             input = output;
         }
         input
+    }
+}
+
+fn run_lines(
+    recorder: &mut Recorder<'_>,
+    name: &str,
+    kernels: &[Kernel; 3],
+    input: &wgpu::Buffer,
+    output: &wgpu::Buffer,
+    targets: &Targets,
+    lines: u32,
+) {
+    // The surface is scratch: it is written only after the filter.
+    let buffers = [&targets.occupied, input, output, &targets.surface, &targets.pieces];
+    let resources = buffers.map(wgpu::Buffer::as_entire_binding);
+    let lines = u64::from(lines);
+    let pieces = Grid::Items(lines.next_multiple_of(8) * CHUNKS, 64);
+    for (kernel, grid) in kernels.iter().zip([&pieces, &Grid::Items(lines, 64), &pieces]) {
+        recorder.run(name, kernel, &resources, grid);
     }
 }

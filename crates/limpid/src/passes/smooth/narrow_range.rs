@@ -20,10 +20,10 @@ impl NarrowRange {
     pub fn steps(&self, iterations: u32) -> Vec<Step<'_>> {
         let mut steps = Vec::new();
         for _ in 0..iterations {
-            steps.push(("narrow-range-x", &self.x, Work::Pixels));
-            steps.push(("narrow-range-y", &self.y, Work::Pixels));
+            steps.push(("narrow-range-x", Work::Pixels(&self.x)));
+            steps.push(("narrow-range-y", Work::Pixels(&self.y)));
         }
-        steps.push(("narrow-range-cleanup", &self.cleanup, Work::Pixels));
+        steps.push(("narrow-range-cleanup", Work::Pixels(&self.cleanup)));
         steps
     }
 }
