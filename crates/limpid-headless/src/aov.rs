@@ -28,7 +28,7 @@ pub enum Aov {
 }
 
 /// Towards the lamp that lights clay, view space.
-const LAMP: [f32; 3] = [-0.36, 0.48, 0.8];
+const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.

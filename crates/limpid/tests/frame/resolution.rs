@@ -60,7 +60,7 @@ fn the_surface_is_that_of_full_resolution() {
     let cloud = Cloud::sphere_drop();
     let shot = |filter_scale| {
         let settings = Settings { filter_scale, ..Settings::default() };
-        render(&shot_of(&cloud, looking([1.6, 0.9, 1.9], [0.5, 0.25, 0.5], size), size, settings))
+        render(&shot_of(&cloud, looking([0.9, 0.5, 1.0], [0.5, 0.15, 0.5], size), size, settings))
     };
     let full = shot(Scale::Full);
     for (scale, rms) in [(Scale::Half, 0.15), (Scale::Quarter, 0.3)] {
