@@ -63,6 +63,10 @@ pub struct Options {
     /// How curvature flow advances; asks for that filter where no other is named
     #[arg(long, value_name = "FORM", value_parser = choice::<CurvatureFlow>(), help_heading = "Surface")]
     pub curvature_flow: Option<Named<CurvatureFlow>>,
+    /// Bilateral filter: exact, in two dimensions, instead of two passes along the axes; slow
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true,
+          value_name = "BOOL", help_heading = "Surface")]
+    pub exact_2d: Option<bool>,
     /// Smoothing length in particle radii
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Surface")]
     pub strength: Option<f64>,
@@ -212,6 +216,7 @@ impl Options {
             curvature_flow: Some(Named(smoothing.curvature_flow)),
             strength: Some(widen(smoothing.strength)),
             iterations: Some(smoothing.iterations),
+            exact_2d: Some(smoothing.exact_2d),
             filter_max_px: Some(smoothing.max_radius_px),
             filter_range: Some(widen(smoothing.range)),
             filter_clamp: Some(widen(smoothing.clamp)),
@@ -234,6 +239,7 @@ impl Options {
         smoothing.curvature_flow = self.curvature_flow.map_or(smoothing.curvature_flow, |form| form.0);
         set(&mut smoothing.strength, self.strength);
         smoothing.iterations = self.iterations.unwrap_or(smoothing.iterations);
+        smoothing.exact_2d = self.exact_2d.unwrap_or(smoothing.exact_2d);
         smoothing.max_radius_px = self.filter_max_px.unwrap_or(smoothing.max_radius_px);
         set(&mut smoothing.range, self.filter_range);
         set(&mut smoothing.clamp, self.filter_clamp);
