@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 14] = [
+    const NOT_NUMBERS: [&str; 15] = [
         "input",
         "output",
         "size",
@@ -114,6 +114,7 @@ mod tests {
         "filter-scale",
         "thickness-scale",
         "background",
+        "exact-2d",
         "show",
         "aov",
         "timings",
