@@ -25,6 +25,6 @@ pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
 pub use particles::{ParticleSlices, Particles, Radius};
 pub use renderer::{Frame, FrameBuffers, Renderer, Scene, TargetFormat};
-pub use settings::{Absorption, Filter, Optics, Scale, Settings, Smoothing};
+pub use settings::{Absorption, Anisotropy, Filter, Optics, Scale, Settings, Smoothing};
 pub use shadow::FloorShadow;
 pub use view::View;

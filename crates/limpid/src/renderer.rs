@@ -3,7 +3,8 @@
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, uniform_buffer};
 use crate::passes::{
-    Composite, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
+    Composite, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
+    level_count,
 };
 use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};
@@ -129,6 +130,7 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     view: wgpu::Buffer,
     settings: wgpu::Buffer,
+    ellipsoids: Ellipsoids,
     splat: Splat,
     tiles: Tiles,
     thickness: Thickness,
@@ -193,6 +195,7 @@ impl Renderer {
         Self {
             view: uniform_buffer::<ViewUniform>(device, "view"),
             settings: uniform_buffer::<SettingsUniform>(device, "settings"),
+            ellipsoids: Ellipsoids::new(device, &layout),
             splat: Splat::new(device, &layout),
             tiles: Tiles::new(device, &layout),
             thickness: Thickness::new(device, &layout),
@@ -283,9 +286,14 @@ impl Renderer {
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
 
         let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
-        self.splat.encode(recorder, &particles.chunks, &targets);
+        let balls = if settings.anisotropy.enabled {
+            self.ellipsoids.encode(recorder, queue, particles, &settings.anisotropy)
+        } else {
+            &particles.chunks
+        };
+        self.splat.encode(recorder, balls, &targets);
         self.tiles.encode(recorder, &targets);
-        self.thickness.splat(recorder, "splat-thickness", &particles.chunks, scene.depth, &targets.thickness);
+        self.thickness.splat(recorder, "splat-thickness", balls, scene.depth, &targets.thickness);
         self.thickness.blur(recorder, &targets);
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, &targets);

@@ -18,6 +18,10 @@ impl Choice for Filter {
     const ALL: &'static [(&'static str, Self)] = &[("narrow-range", Self::NarrowRange), ("none", Self::None)];
 }
 
+impl Choice for bool {
+    const ALL: &'static [(&'static str, Self)] = &[("on", true), ("off", false)];
+}
+
 impl Choice for Scale {
     const ALL: &'static [(&'static str, Self)] = &[("1", Self::Full), ("2", Self::Half), ("4", Self::Quarter)];
 }

@@ -103,11 +103,12 @@ mod tests {
     use super::*;
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 12] = [
+    const NOT_NUMBERS: [&str; 13] = [
         "input",
         "output",
         "size",
         "up",
+        "anisotropy",
         "filter",
         "quality",
         "filter-scale",

@@ -57,6 +57,21 @@ pub struct Options {
     /// Leave particles of lower density out of the picture, in the file's unit; 0 keeps all
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub density_threshold: Option<f64>,
+    /// Stretch particles along the surface as their neighbours lie
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Surface")]
+    pub anisotropy: Option<Named<bool>>,
+    /// Anisotropy: largest ratio of a stretched particle's longest axis to its shortest
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Surface")]
+    pub kappa: Option<f64>,
+    /// Anisotropy: how far neighbours are looked for, in particle radii
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
+    pub support: Option<f64>,
+    /// Anisotropy: particles with fewer neighbours turn round, wholly so at half as many
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Surface")]
+    pub min_neighbours: Option<f64>,
+    /// Anisotropy: how far particles are drawn towards the mean of their neighbours; 1 is all the way
+    #[arg(long, value_name = "L", allow_hyphen_values = true, help_heading = "Surface")]
+    pub center_smoothing: Option<f64>,
     /// How the surface is smoothed
     #[arg(long, value_name = "NAME", value_parser = choice::<Filter>(), help_heading = "Surface")]
     pub filter: Option<Named<Filter>>,
@@ -172,7 +187,7 @@ impl Options {
     }
 
     fn of_settings(settings: &Settings) -> Self {
-        let optics = &settings.optics;
+        let Settings { anisotropy, optics, .. } = settings;
         let (absorption, absorption_per_world) = match optics.absorption {
             Absorption::PerRadius(rgb) => (Some(rgb.map(widen)), None),
             Absorption::PerWorld(rgb) => (None, Some(rgb.map(widen))),
@@ -180,6 +195,11 @@ impl Options {
         Self {
             splat_scale: Some(widen(settings.splat_scale)),
             density_threshold: Some(widen(settings.density_threshold)),
+            anisotropy: Some(Named(anisotropy.enabled)),
+            kappa: Some(widen(anisotropy.kappa)),
+            support: Some(widen(anisotropy.support)),
+            min_neighbours: Some(widen(anisotropy.min_neighbours)),
+            center_smoothing: Some(widen(anisotropy.center_smoothing)),
             filter_scale: Some(Named(settings.filter_scale)),
             thickness_scale: Some(Named(settings.thickness_scale)),
             min_thickness: Some(widen(settings.min_thickness)),
@@ -216,6 +236,13 @@ impl Options {
         settings.thickness_scale = self.thickness_scale.map_or(settings.thickness_scale, |scale| scale.0);
         set(&mut settings.min_thickness, self.min_thickness);
         set(&mut settings.normal_step, self.normal_step);
+
+        let anisotropy = &mut settings.anisotropy;
+        anisotropy.enabled = self.anisotropy.map_or(anisotropy.enabled, |enabled| enabled.0);
+        set(&mut anisotropy.kappa, self.kappa);
+        set(&mut anisotropy.support, self.support);
+        set(&mut anisotropy.min_neighbours, self.min_neighbours);
+        set(&mut anisotropy.center_smoothing, self.center_smoothing);
 
         let smoothing = &mut settings.smoothing;
         smoothing.filter = self.filter.map_or(smoothing.filter, |filter| filter.0);

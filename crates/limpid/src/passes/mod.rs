@@ -1,6 +1,8 @@
 //! The passes of a frame, in the order of their names here; each is one file beside its WGSL.
 
+mod anisotropy;
 mod composite;
+mod neighbours;
 mod normals;
 mod shade;
 mod smooth;
@@ -9,6 +11,7 @@ mod thickness;
 mod tiles;
 mod upsample;
 
+pub(crate) use anisotropy::Ellipsoids;
 pub(crate) use composite::Composite;
 pub(crate) use normals::Normals;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
@@ -28,3 +31,8 @@ macro_rules! module {
     };
 }
 pub(crate) use module;
+
+/// `ball.wgsl`'s override.
+fn ellipsoids_constant(ellipsoids: bool) -> (&'static str, f64) {
+    ("ELLIPSOIDS", f64::from(u8::from(ellipsoids)))
+}

@@ -1,6 +1,6 @@
 //! Depth splat: `splat.wgsl`.
 
-use super::module;
+use super::{ellipsoids_constant, module};
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer};
 use crate::particles::Chunk;
 use crate::targets::Targets;
@@ -9,22 +9,44 @@ use crate::targets::Targets;
 const HEADER_WORDS: u64 = 2;
 
 pub(crate) struct Splat {
-    small: Kernel,
-    count: Kernel,
-    large: Kernel,
+    spheres: Kernels,
+    ellipsoids: Kernels,
     large_splats: GrowBuffer,
     large_groups: wgpu::Buffer,
 }
 
+/// The kernels for one kind of ball.
+struct Kernels {
+    small: Kernel,
+    count: Kernel,
+    large: Kernel,
+}
+
+impl Kernels {
+    fn new(
+        device: &wgpu::Device,
+        frame: &wgpu::BindGroupLayout,
+        module: &wgpu::ShaderModule,
+        ellipsoids: bool,
+    ) -> Self {
+        let [read, write] = [Slot::Read, Slot::Write];
+        let slots = [read, read, read, write, write, write, write];
+        let constants = [ellipsoids_constant(ellipsoids)];
+        let kernel = |entry, slots: &[Slot]| Kernel::with_constants(device, frame, module, entry, slots, &constants);
+        Self {
+            small: kernel("splat_small", &slots[..6]),
+            count: kernel("count_large", &slots),
+            large: kernel("splat_large", &slots[..6]),
+        }
+    }
+}
+
 impl Splat {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "splat", "../frame.wgsl", "../ball.wgsl", "splat.wgsl");
-        let slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write, Slot::Write];
-        let kernel = |entry, slots: &[Slot]| Kernel::new(device, frame, &module, entry, slots);
+        let module = module!(device, "splat", "../frame.wgsl", "shape.wgsl", "../ball.wgsl", "splat.wgsl");
         Self {
-            small: kernel("splat_small", &slots[..5]),
-            count: kernel("count_large", &slots),
-            large: kernel("splat_large", &slots[..5]),
+            spheres: Kernels::new(device, frame, &module, false),
+            ellipsoids: Kernels::new(device, frame, &module, true),
             large_splats: GrowBuffer::new("large splats"),
             large_groups: storage_buffer(device, "large groups", 12),
         }
@@ -38,18 +60,21 @@ impl Splat {
         let large = self.large_splats.reserve(recorder.device, 4 * (HEADER_WORDS + most)).clone();
         for chunk in particles {
             recorder.encoder.clear_buffer(&large, 0, Some(4 * HEADER_WORDS));
+            let kernels = if chunk.shapes.is_some() { &self.ellipsoids } else { &self.spheres };
+            let [positions, densities, shapes] = chunk.bindings();
             let resources = [
-                chunk.positions.as_entire_binding(),
-                chunk.densities.as_entire_binding(),
+                positions,
+                densities,
+                shapes,
                 targets.raw.as_entire_binding(),
                 large.as_entire_binding(),
                 targets.covered.as_entire_binding(),
                 self.large_groups.as_entire_binding(),
             ];
             let name = "splat-depth";
-            recorder.run(name, &self.small, &resources[..5], &Grid::Items(chunk.count, 64));
-            recorder.run(name, &self.count, &resources, &Grid::Items(1, 1));
-            recorder.run(name, &self.large, &resources[..5], &Grid::Indirect(&self.large_groups));
+            recorder.run(name, &kernels.small, &resources[..6], &Grid::Items(chunk.count, 64));
+            recorder.run(name, &kernels.count, &resources, &Grid::Items(1, 1));
+            recorder.run(name, &kernels.large, &resources[..6], &Grid::Indirect(&self.large_groups));
         }
     }
 }
