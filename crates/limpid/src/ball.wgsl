@@ -1,11 +1,7 @@
 // Drawn balls: solid spheres or ellipsoids of the liquid, cut open at the near plane.
 
-// Whether `shapes` says how each ball is stretched; all are spheres else.
-override ELLIPSOIDS: bool;
-
-@group(1) @binding(0) var<storage, read> particles: array<vec4f>; // local position, particle radius; 0: left out
-@group(1) @binding(1) var<storage, read> densities: array<f32>; // one for each particle of spheres, or unused
-@group(1) @binding(2) var<storage, read> shapes: array<vec4u>; // shape.wgsl; one for each particle of ellipsoids, or unused
+// Whether balls may be stretched; all are spheres else.
+override ELLIPSOIDS: bool = true;
 
 struct Ball {
     center: vec3f, // view space
@@ -13,25 +9,11 @@ struct Ball {
     spread: mat3x3f, // A transpose(A), where the ball is center + A u, |u| <= 1: sqrt(spread[k][k]) is its half-extent on axis k
     round_from_view: mat3x3f, // from view space to one in which the ball is a sphere of its radius
     reach: f32, // half-extent along the view's axis
-    drawn: bool,
 }
 
-fn ball_of(index: u32) -> Ball {
-    let particle = particles[index];
-    let center = (view.view_from_local * vec4f(particle.xyz, 1.0)).xyz;
-    let radius = particle.w * settings.splat_scale;
+fn sphere(center: vec3f, radius: f32) -> Ball {
     let unit = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-    if !ELLIPSOIDS {
-        let stray = settings.density_threshold > 0.0 && densities[index] < settings.density_threshold;
-        return Ball(center, radius, radius * radius * unit, unit, radius, !stray && radius - center.z > view.near);
-    }
-    let turn = mat3x3f(view.view_from_local[0].xyz, view.view_from_local[1].xyz, view.view_from_local[2].xyz);
-    let shape = unpack_shape(shapes[index]);
-    let stretch = turn * shape;
-    let spread = radius * radius * stretch * transpose(stretch);
-    let reach = sqrt(spread[2][2]);
-    let round_from_view = inverse_of_symmetric(shape) * transpose(turn);
-    return Ball(center, radius, spread, round_from_view, reach, particle.w > 0.0 && reach - center.z > view.near);
+    return Ball(center, radius, radius * radius * unit, unit, radius);
 }
 
 // The depths at which a ray enters and leaves the part of a ball that lies beyond the near plane, and its length inside;

@@ -279,6 +279,7 @@ impl Renderer {
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
+        self.ellipsoids.write(queue, particles, &settings.anisotropy);
         let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
         let shadow = self.shadow_tint.take();
         self.shade.write(queue, &optics, &frame.environment.uniform(frame.view, shadow.as_ref()));
@@ -286,12 +287,14 @@ impl Renderer {
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
 
         let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
+        self.splat.clear(recorder, &targets);
         let balls = if settings.anisotropy.enabled {
-            self.ellipsoids.encode(recorder, queue, particles, &settings.anisotropy)
+            let skip_hidden = settings.anisotropy.skip_hidden;
+            self.ellipsoids.encode(recorder, particles, &mut self.splat, &targets, skip_hidden)
         } else {
+            particles.chunks.iter().for_each(|chunk| self.splat.spheres(recorder, chunk, &targets));
             &particles.chunks
         };
-        self.splat.encode(recorder, balls, &targets);
         self.tiles.encode(recorder, &targets);
         self.thickness.splat(recorder, "splat-thickness", balls, scene.depth, &targets.thickness);
         self.thickness.blur(recorder, &targets);

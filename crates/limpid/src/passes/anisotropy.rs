@@ -1,9 +1,11 @@
 //! Ellipsoids along the surface: `anisotropy.wgsl`.
 
-use super::module;
 use super::neighbours::Neighbours;
+use super::visible::{Stage, Visible};
+use super::{Splat, module};
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, uniform_buffer};
 use crate::particles::Chunk;
+use crate::targets::Targets;
 use crate::{Anisotropy, Particles};
 use bytemuck::{Pod, Zeroable};
 
@@ -15,6 +17,7 @@ const MOST_MEDIANS: f32 = 2.0;
 
 pub(crate) struct Ellipsoids {
     neighbours: Neighbours,
+    visible: Visible,
     kernel: Kernel,
     grid: wgpu::Buffer,
     buffers: Vec<[GrowBuffer; 2]>,
@@ -30,14 +33,16 @@ struct GridUniform {
     kappa: f32,
     min_neighbours: f32,
     center_smoothing: f32,
+    skip_hidden: u32,
 }
 
 impl Ellipsoids {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(device, "anisotropy", "../frame.wgsl", "shape.wgsl", "grid.wgsl", "anisotropy.wgsl");
-        let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
+        let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
         Self {
             neighbours: Neighbours::new(device, frame),
+            visible: Visible::new(device, frame),
             kernel: Kernel::new(device, frame, &module, "anisotropy", &slots),
             grid: uniform_buffer::<GridUniform>(device, "grid"),
             buffers: Vec::new(),
@@ -45,14 +50,8 @@ impl Ellipsoids {
         }
     }
 
-    /// The particles as ellipsoids. Neighbours are looked for within a chunk.
-    pub fn encode(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        queue: &wgpu::Queue,
-        particles: &Particles,
-        settings: &Anisotropy,
-    ) -> &[Chunk] {
+    /// Writes what the kernels know of the settings.
+    pub fn write(&self, queue: &wgpu::Queue, particles: &Particles, settings: &Anisotropy) {
         let radius = particles.largest_radius.min(MOST_MEDIANS * particles.reference_radius);
         let grid = GridUniform {
             cell: settings.support * radius / REACH,
@@ -60,32 +59,51 @@ impl Ellipsoids {
             kappa: settings.kappa,
             min_neighbours: settings.min_neighbours,
             center_smoothing: settings.center_smoothing,
+            skip_hidden: u32::from(settings.skip_hidden),
         };
         queue.write_buffer(&self.grid, 0, bytemuck::bytes_of(&grid));
-        let Self { neighbours, kernel, grid, buffers, chunks } = self;
-        buffers.resize_with(particles.chunks.len(), || [GrowBuffer::new("ellipsoids"), GrowBuffer::new("shapes")]);
-        chunks.clear();
-        for (chunk, [balls, shapes]) in particles.chunks.iter().zip(buffers) {
-            let sorted = neighbours.encode(recorder, grid, chunk);
-            let balls = balls.reserve(recorder.device, 16 * chunk.count).clone();
-            let shapes = shapes.reserve(recorder.device, 16 * chunk.count).clone();
-            let resources = [
-                grid.as_entire_binding(),
-                sorted.particles(),
-                sorted.counts.as_entire_binding(),
-                sorted.ends(),
-                balls.as_entire_binding(),
-                shapes.as_entire_binding(),
-            ];
-            recorder.run("anisotropy", kernel, &resources, &Grid::Items(chunk.count, 64));
-            // Stray particles have a radius of 0 by now.
-            chunks.push(Chunk {
+    }
+
+    /// Splats the particles as ellipsoids into `targets.raw`, and returns them: those that cannot show as spheres.
+    /// Neighbours are looked for within a chunk.
+    pub fn encode(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        particles: &Particles,
+        splat: &mut Splat,
+        targets: &Targets,
+        skip_hidden: bool,
+    ) -> &[Chunk] {
+        let stages = if skip_hidden { &[Stage::Fronts, Stage::Rest][..] } else { &[Stage::Fronts] };
+        self.buffers.resize_with(particles.chunks.len(), || [GrowBuffer::new("ellipsoids"), GrowBuffer::new("shapes")]);
+        self.chunks.clear();
+        for (chunk, [balls, shapes]) in particles.chunks.iter().zip(&mut self.buffers) {
+            let sorted = self.neighbours.encode(recorder, &self.grid, chunk);
+            let ellipsoids = Chunk {
                 count: chunk.count,
-                positions: balls,
+                positions: balls.reserve(recorder.device, 16 * chunk.count).clone(),
+                // Stray particles have a radius of 0 by now.
                 densities: chunk.densities.clone(),
-                shapes: Some(shapes),
-            });
+                shapes: Some(shapes.reserve(recorder.device, 16 * chunk.count).clone()),
+            };
+            sorted.copy_spheres(recorder, &ellipsoids);
+            for stage in stages {
+                let list = self.visible.encode(recorder, &self.grid, &sorted, targets, *stage);
+                let [positions, _, shapes] = ellipsoids.bindings();
+                let resources = [
+                    self.grid.as_entire_binding(),
+                    sorted.particles(),
+                    sorted.counts.as_entire_binding(),
+                    sorted.ends(),
+                    list.items.as_entire_binding(),
+                    positions,
+                    shapes,
+                ];
+                recorder.run("anisotropy", &self.kernel, &resources, &Grid::Indirect(&list.groups));
+                splat.ellipsoids(recorder, &ellipsoids, &list, targets);
+            }
+            self.chunks.push(ellipsoids);
         }
-        chunks
+        &self.chunks
     }
 }

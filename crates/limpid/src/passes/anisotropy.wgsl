@@ -6,8 +6,9 @@
 @group(1) @binding(1) var<storage, read> sorted: array<vec4f>; // neighbours.wgsl's
 @group(1) @binding(2) var<storage, read> counts: array<u32>;
 @group(1) @binding(3) var<storage, read> ends: array<u32>;
-@group(1) @binding(4) var<storage, read_write> balls: array<vec4f>; // drawn centre, particle radius
-@group(1) @binding(5) var<storage, read_write> shapes: array<vec4u>; // shape.wgsl
+@group(1) @binding(4) var<storage, read> list: array<u32>; // count, then particles to work on: visible.wgsl's
+@group(1) @binding(5) var<storage, read_write> balls: array<vec4f>; // drawn centre, particle radius
+@group(1) @binding(6) var<storage, read_write> shapes: array<vec4u>; // shape.wgsl
 
 // Weighted sums over neighbours and the particle itself, lengths in supports from the particle.
 struct Moments {
@@ -101,12 +102,13 @@ fn anisotropy(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = item_index(group, groups, lane, 64u);
-    if index >= arrayLength(&sorted) {
+    let item = item_index(group, groups, lane, 64u);
+    if item >= list[0] {
         return;
     }
+    let index = list[1u + item];
     let particle = sorted[index];
-    let support = min(grid.support * max(particle.w, 1e-18), f32(REACH) * grid.cell);
+    let support = support_of(particle.w, grid);
     let moments = moments_of(particle.xyz, support);
 
     let weight = max(moments.weight, 1.0);

@@ -17,6 +17,12 @@ struct Grid {
     kappa: f32,
     min_neighbours: f32,
     center_smoothing: f32,
+    skip_hidden: u32,
+}
+
+// How far a particle looks for neighbours, world units.
+fn support_of(radius: f32, grid: Grid) -> f32 {
+    return min(grid.support * radius, f32(REACH) * grid.cell);
 }
 
 // Coordinates beyond what an integer holds are clamped: float32 positions are coarser than cells there.

@@ -10,6 +10,7 @@ mod splat;
 mod thickness;
 mod tiles;
 mod upsample;
+mod visible;
 
 pub(crate) use anisotropy::Ellipsoids;
 pub(crate) use composite::Composite;

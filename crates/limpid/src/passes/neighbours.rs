@@ -23,7 +23,7 @@ pub(crate) struct Neighbours {
 
 /// Particles in the order of the grid's cells (`neighbours.wgsl`).
 pub(crate) struct Sorted {
-    count: u64,
+    pub count: u64,
     buckets: u64,
     pub counts: wgpu::Buffer,
     ends: wgpu::Buffer,
@@ -82,6 +82,15 @@ impl Sorted {
     /// vec4 of each particle.
     pub fn particles(&self) -> wgpu::BindingResource<'_> {
         first_bytes(&self.particles, 16 * self.count)
+    }
+
+    /// Makes every ellipsoid the sphere of its particle.
+    pub fn copy_spheres(&self, recorder: &mut Recorder<'_>, ellipsoids: &Chunk) {
+        let encoder = &mut *recorder.encoder;
+        encoder.copy_buffer_to_buffer(&self.particles, 0, &ellipsoids.positions, 0, 16 * self.count);
+        if let Some(shapes) = &ellipsoids.shapes {
+            encoder.clear_buffer(shapes, 0, Some(16 * self.count));
+        }
     }
 
     /// u32 of each bucket, a power of two of them.

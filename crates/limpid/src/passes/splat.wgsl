@@ -1,10 +1,11 @@
 // Depth splat: the nearest entry of every pixel's ray into any ball, by a checked atomicMax on the bits of its nearness.
 // Small splats take one lane each; large ones are listed and get a workgroup each, block by block of the picture.
 
-@group(1) @binding(3) var<storage, read_write> nearness: array<atomic<u32>>;
-@group(1) @binding(4) var<storage, read_write> large: LargeSplats;
-@group(1) @binding(5) var<storage, read_write> covered: array<atomic<u32>>; // per block: nearness bits that all its pixels reach
-@group(1) @binding(6) var<storage, read_write> large_groups: vec3u; // indirect dispatch of splat_large
+@group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the ellipsoids to draw; spheres: all, unused
+@group(1) @binding(4) var<storage, read_write> nearness: array<atomic<u32>>;
+@group(1) @binding(5) var<storage, read_write> large: LargeSplats;
+@group(1) @binding(6) var<storage, read_write> covered: array<atomic<u32>>; // per block: nearness bits that all its pixels reach
+@group(1) @binding(7) var<storage, read_write> large_groups: vec3u; // indirect dispatch of splat_large
 
 struct LargeSplats {
     count: atomic<u32>,
@@ -44,12 +45,16 @@ fn splat_small(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = item_index(group, groups, lane, 64u);
-    if index >= arrayLength(&particles) {
+    let item = item_index(group, groups, lane, 64u);
+    if item >= select(arrayLength(&particles), list[0], ELLIPSOIDS) {
         return;
     }
+    var index = item;
+    if ELLIPSOIDS {
+        index = list[1u + item];
+    }
     let ball = ball_of(index);
-    if !ball.drawn {
+    if !is_drawn(ball) {
         return;
     }
     let box = texel_box(ball, 1.0, view.size);

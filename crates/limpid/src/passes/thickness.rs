@@ -33,6 +33,7 @@ impl Thickness {
             "../frame.wgsl",
             "shape.wgsl",
             "../ball.wgsl",
+            "balls.wgsl",
             "thickness_levels.wgsl",
             "../scene_depth.wgsl",
             "thickness.wgsl"

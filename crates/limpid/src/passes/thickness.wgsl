@@ -23,7 +23,7 @@ fn splat(
         return;
     }
     let ball = ball_of(index);
-    if !ball.drawn {
+    if !is_drawn(ball) {
         return;
     }
     var box = texel_box(ball, settings.thickness_divisor, settings.thickness_size);

@@ -1,0 +1,164 @@
+// Which particles can show: ellipsoids are worked out and splatted in two stages. First those whose centres lie about as
+// near as any other in their part of the picture: most of what will be seen. Then those that could still show somewhere:
+// whatever shape a particle takes, it stays within its bounds, and where every pixel of a tile is already nearer than
+// those, it adds nothing. The rest cannot change a bit of the depth image, and stay spheres in the thickness.
+
+@group(1) @binding(0) var<uniform> grid: Grid;
+@group(1) @binding(1) var<storage, read> sorted: array<vec4f>; // neighbours.wgsl's
+@group(1) @binding(2) var<storage, read_write> fronts: array<atomic<u32>>; // per level and tile: nearness of its nearest centre
+@group(1) @binding(3) var<storage, read> nearness: array<u32>; // bits, after the first stage
+@group(1) @binding(4) var<storage, read_write> filled: array<u32>; // per tile: nearness bits that all its pixels reach
+@group(1) @binding(5) var<storage, read_write> list: List;
+@group(1) @binding(6) var<storage, read_write> list_groups: vec3u; // indirect dispatch of a lane for each in the list
+
+struct List {
+    count: atomic<u32>,
+    items: array<u32>, // order varies, results do not
+}
+
+const TILE: i32 = 8; // pixels
+const LEVELS: u32 = 6u; // of `fronts`, each of tiles twice as wide
+const FRONT: f32 = 2.0; // r behind the nearest centre that the first stage draws
+
+fn tiles_across() -> i32 {
+    return (i32(view.size.x) + TILE - 1) / TILE;
+}
+
+struct Center {
+    depth: f32,
+    front: u32, // its place in `fronts`
+    seen: bool, // in the picture, beyond the near plane
+}
+
+// Levels are chosen by a particle's size on screen, so that a tile of a body of liquid holds about one at each depth.
+fn center_of(particle: vec4f) -> Center {
+    let at = (view.view_from_local * vec4f(particle.xyz, 1.0)).xyz;
+    let depth = -at.z;
+    let px = (at.xy / select(1.0, max(depth, view.near), is_perspective()) - view.px_zero) / view.px_step;
+    let width = 2.0 * particle.w * px_per_world(max(depth, view.near)) / f32(TILE);
+    let level = u32(clamp(ceil(log2(max(width, 1.0))), 0.0, f32(LEVELS - 1u)));
+    let seen = depth > view.near && all(px >= vec2f(0.0)) && all(px < vec2f(view.size)) && particle.w > 0.0;
+    let tile = vec2i(select(vec2f(0.0), px, seen)) / TILE;
+    let across = tiles_across();
+    let down = (i32(view.size.y) + TILE - 1) / TILE;
+    let shifted = tile >> vec2u(level);
+    return Center(depth, level * u32(across * down) + u32(shifted.y * across + shifted.x), seen);
+}
+
+@compute @workgroup_size(64)
+fn find_fronts(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = item_index(group, groups, lane, 64u);
+    if index < arrayLength(&sorted) {
+        let center = center_of(sorted[index]);
+        if center.seen {
+            atomicMax(&fronts[center.front], bitcast<u32>(nearness_of(center.depth)));
+        }
+    }
+}
+
+fn is_in_front(particle: vec4f) -> bool {
+    if grid.skip_hidden == 0u {
+        return particle.w > 0.0;
+    }
+    let center = center_of(particle);
+    let nearest = depth_of(bitcast<f32>(max(atomicLoad(&fronts[center.front]), 1u)));
+    return center.seen && center.depth <= nearest + FRONT * particle.w;
+}
+
+@compute @workgroup_size(64)
+fn list_fronts(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = item_index(group, groups, lane, 64u);
+    if index < arrayLength(&sorted) {
+        if is_in_front(sorted[index]) {
+            list.items[atomicAdd(&list.count, 1u)] = index;
+        }
+    }
+}
+
+@compute @workgroup_size(64)
+fn fill_tiles(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let item = i32(item_index(group, groups, lane, 64u));
+    let low = vec2i(item % tiles_across(), item / tiles_across()) * TILE;
+    let high = min(low + TILE, vec2i(view.size));
+    if low.y >= high.y {
+        return;
+    }
+    var least = 0xffffffffu;
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            least = min(least, nearness[u32(y) * view.size.x + u32(x)]);
+        }
+    }
+    filled[item] = least;
+}
+
+// No ellipsoid of the particle reaches farther than this from its place: its longest axis, where the two others are
+// equally short, and the way to a mean of neighbours. A hundredth more covers rounding.
+fn most_reach(radius: f32) -> f32 {
+    let longest = pow(grid.kappa, 2.0 / 3.0) * radius * settings.splat_scale;
+    return 1.01 * longest + 1.01 * grid.center_smoothing * support_of(radius, grid);
+}
+
+// A drop between the pixel centres of a coarse image shows as one pixel beside them.
+fn show_box(bounds: Ball) -> PixelBox {
+    let box = texel_box(bounds, 1.0, view.size);
+    let margin = select(0, 1, settings.fluid_scale > 1.0);
+    return PixelBox(max(box.min - margin, vec2i(0)), min(box.max + margin, vec2i(view.size) - 1));
+}
+
+fn can_show(particle: vec4f) -> bool {
+    let reach = most_reach(particle.w);
+    let center = (view.view_from_local * vec4f(particle.xyz, 1.0)).xyz;
+    if particle.w <= 0.0 {
+        return false;
+    }
+    if reach - center.z <= view.near {
+        return false;
+    }
+    let box = show_box(sphere(center, reach));
+    // As many units in the last place as the rounding of chords could bring it nearer, and more.
+    let nearest = bitcast<u32>(nearness_of(max(-center.z - reach, view.near))) + 64u;
+    for (var y = box.min.y / TILE; y <= box.max.y / TILE; y++) {
+        for (var x = box.min.x / TILE; x <= box.max.x / TILE; x++) {
+            if filled[y * tiles_across() + x] < nearest {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+@compute @workgroup_size(64)
+fn list_rest(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = item_index(group, groups, lane, 64u);
+    if index < arrayLength(&sorted) {
+        let particle = sorted[index];
+        if !is_in_front(particle) {
+            if can_show(particle) {
+                list.items[atomicAdd(&list.count, 1u)] = index;
+            }
+        }
+    }
+}
+
+@compute @workgroup_size(1)
+fn count_list() {
+    let groups = (atomicLoad(&list.count) + 63u) / 64u;
+    list_groups = vec3u(min(groups, 65535u), (groups + 65534u) / 65535u, 1u);
+}
