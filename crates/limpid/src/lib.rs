@@ -24,7 +24,7 @@ pub use error::Error;
 pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
 pub use particles::{ParticleSlices, Particles, Radius};
-pub use renderer::{Frame, FrameBuffers, Renderer, Scene, TargetFormat};
+pub use renderer::{EllipsoidBuffers, Frame, FrameBuffers, Renderer, Scene, TargetFormat};
 pub use settings::{Absorption, Anisotropy, Filter, Optics, Scale, Settings, Smoothing};
 pub use shadow::FloorShadow;
 pub use view::View;

@@ -320,6 +320,11 @@ impl Renderer {
         }
     }
 
+    /// The particles of the last frame with [`crate::Anisotropy`], for reading back.
+    pub fn ellipsoids(&self) -> impl Iterator<Item = EllipsoidBuffers<'_>> {
+        self.ellipsoids.buffers()
+    }
+
     /// The buffers of the last prepared frame, for reading back; None before the first.
     pub fn buffers(&self) -> Option<FrameBuffers<'_>> {
         let targets = self.targets.as_ref()?;
@@ -339,6 +344,18 @@ impl Renderer {
             },
         })
     }
+}
+
+/// The ellipsoids of some of the particles, in no particular order. Buffers may be larger.
+#[derive(Clone, Copy)]
+pub struct EllipsoidBuffers<'a> {
+    /// How many.
+    pub count: u64,
+    /// Four f32 each: the drawn centre about the particles' origin, and the particle's radius; 0: stray.
+    pub balls: &'a wgpu::Buffer,
+    /// Eight f16 each: a symmetric matrix less the identity (xx, yy, zz, xy, xz, yz) and two unused. It makes the ellipsoid
+    /// from the sphere of the same volume. Particles that cannot show are spheres.
+    pub shapes: &'a wgpu::Buffer,
 }
 
 /// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is not

@@ -6,7 +6,7 @@ use super::{Splat, module};
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, uniform_buffer};
 use crate::particles::Chunk;
 use crate::targets::Targets;
-use crate::{Anisotropy, Particles};
+use crate::{Anisotropy, EllipsoidBuffers, Particles};
 use bytemuck::{Pod, Zeroable};
 
 /// Cells of the grid along a support's length: `grid.wgsl`'s `REACH`.
@@ -105,5 +105,13 @@ impl Ellipsoids {
             self.chunks.push(ellipsoids);
         }
         &self.chunks
+    }
+
+    /// The chunks of the last frame.
+    pub fn buffers(&self) -> impl Iterator<Item = EllipsoidBuffers<'_>> {
+        self.chunks.iter().filter_map(|chunk| {
+            let shapes = chunk.shapes.as_ref()?;
+            Some(EllipsoidBuffers { count: chunk.count, balls: &chunk.positions, shapes })
+        })
     }
 }
