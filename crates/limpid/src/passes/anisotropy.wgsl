@@ -96,6 +96,15 @@ fn eigen_of(symmetric: mat3x3f) -> Eigen {
     return Eigen(vec3f(m[0][0], m[1][1], m[2][2]), vectors);
 }
 
+// The way that evens the surface out, for a particle whose neighbours' mean lies there; both in supports. Going all the
+// way to the mean (Yu and Turk, Eq. 6) would draw a flat surface in by FLAT_MEAN and edges by more. So particles on a
+// surface go only as far as their mean is farther, and those just beneath keep their distance to it.
+fn evening(mean: vec3f) -> vec3f {
+    let ratio = length(mean) / FLAT_MEAN;
+    let part = select(ratio - 1.0, 1.0 - 1.0 / max(ratio, 1.0), ratio > 1.0);
+    return mean * min(part, MOST_EVENING / max(length(mean), 1e-9));
+}
+
 @compute @workgroup_size(64)
 fn anisotropy(
     @builtin(workgroup_id) group: vec3u,
@@ -130,6 +139,6 @@ fn anisotropy(
     let axes = pow(values * pow(values.x * values.y * values.z, -1.0 / 3.0), vec3f(trust));
     let v = eigen.vectors;
     let shape = mat3x3f(v[0] * axes.x, v[1] * axes.y, v[2] * axes.z) * transpose(v);
-    balls[index] = vec4f(particle.xyz + grid.center_smoothing * trust * support * mean, particle.w);
+    balls[index] = vec4f(particle.xyz + grid.center_smoothing * trust * support * evening(mean), particle.w);
     shapes[index] = pack_shape(shape);
 }

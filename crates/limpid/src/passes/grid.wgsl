@@ -11,6 +11,11 @@ const REACH: i32 = 2; // cells that a search extends to either side
 // of particles in one point perhaps: it is left out of every search, or a frame would take minutes.
 const CROWD: u32 = 256u;
 
+// The neighbours' mean of a particle on a flat surface of a lattice is that far away, in supports.
+const FLAT_MEAN: f32 = 0.235;
+// No centre moves farther than this, in supports.
+const MOST_EVENING: f32 = 0.15;
+
 struct Grid {
     cell: f32, // edge, world units
     support: f32, // r

@@ -108,7 +108,7 @@ fn fill_tiles(
 // equally short, and the way to a mean of neighbours. A hundredth more covers rounding.
 fn most_reach(radius: f32) -> f32 {
     let longest = pow(grid.kappa, 2.0 / 3.0) * radius * settings.splat_scale;
-    return 1.01 * longest + 1.01 * grid.center_smoothing * support_of(radius, grid);
+    return 1.01 * longest + 1.01 * MOST_EVENING * grid.center_smoothing * support_of(radius, grid);
 }
 
 // A drop between the pixel centres of a coarse image shows as one pixel beside them.
