@@ -18,43 +18,57 @@ struct Moments {
     mixed: vec3f, // second: yz, zx, xy
 }
 
-// Adds the particles in `first`..`end` of the sorted order.
-fn add_neighbours(moments: ptr<function, Moments>, first: u32, end: u32, position: vec3f, per_support: f32) {
-    for (var other = first; other < end; other++) {
-        let neighbour = sorted[other];
-        let offset = (neighbour.xyz - position) * per_support;
-        let squared = dot(offset, offset);
-        let weight = select(0.0, max(1.0 - squared * sqrt(squared), 0.0), neighbour.w > 0.0);
-        let weighted = weight * offset;
-        (*moments).weight += weight;
-        (*moments).first += weighted;
-        (*moments).diagonal += weighted * offset;
-        (*moments).mixed += weighted.yzx * offset.zxy;
+// The particles of a row of cells: those of two ranges of the sorted order, the second where a block of buckets ends
+// within the row.
+struct Row {
+    first: u32,
+    first_count: u32,
+    second: u32,
+    count: u32,
+}
+
+fn row_of(start: vec3i, cells: i32) -> Row {
+    let buckets = arrayLength(&ends);
+    let split = min((start.x | (ROW - 1)) - start.x, cells - 1);
+    let low = bucket_of(start, buckets);
+    let first = ends[low] - counts[low];
+    let first_count = ends[low + u32(split)] - first;
+    if split == cells - 1 {
+        return Row(first, first_count, 0u, first_count);
     }
+    let high = bucket_of(start + vec3i(split + 1, 0, 0), buckets);
+    let second = ends[high] - counts[high];
+    return Row(first, first_count, second, first_count + ends[high + u32(cells - split - 2)] - second);
 }
 
 fn moments_of(position: vec3f, support: f32) -> Moments {
     var moments = Moments(0.0, vec3f(0.0), vec3f(0.0), vec3f(0.0));
-    let buckets = arrayLength(&ends);
     let center = cell_of(position, grid);
-    for (var dz = -REACH; dz <= REACH; dz++) {
-        for (var dy = -REACH; dy <= REACH; dy++) {
-            // A row of cells, in two parts where a block of buckets ends within it.
-            let row = center + vec3i(-REACH, dy, dz);
-            let split = min((row.x | (ROW - 1)) - row.x, 2 * REACH);
-            let first = bucket_of(row, buckets);
-            let first_end = ends[bucket_of(row + vec3i(split, 0, 0), buckets)];
-            let first_start = ends[first] - counts[first];
-            if first_end - first_start <= CROWD {
-                add_neighbours(&moments, first_start, first_end, position, 1.0 / support);
+    let within = position / grid.cell - vec3f(center);
+    let reach = support / grid.cell;
+    let per_support = 1.0 / support;
+    for (var z = -REACH; z <= REACH; z++) {
+        for (var y = -REACH; y <= REACH; y++) {
+            // The part of the row of cells that the support reaches.
+            let gap = max(max(vec2f(f32(y), f32(z)) - within.yz, within.yz - vec2f(f32(y), f32(z)) - 1.0), vec2f(0.0));
+            let half = sqrt(max(reach * reach - dot(gap, gap), 0.0));
+            if half <= 0.0 {
+                continue;
             }
-            if split < 2 * REACH {
-                let second = bucket_of(row + vec3i(split + 1, 0, 0), buckets);
-                let second_end = ends[bucket_of(row + vec3i(2 * REACH, 0, 0), buckets)];
-                let second_start = ends[second] - counts[second];
-                if second_end - second_start <= CROWD {
-                    add_neighbours(&moments, second_start, second_end, position, 1.0 / support);
-                }
+            let low = max(i32(floor(within.x - half)), -REACH);
+            let high = min(i32(floor(within.x + half)), REACH);
+            let row = row_of(center + vec3i(low, y, z), high - low + 1);
+            let count = select(row.count, 0u, row.count > CROWD);
+            for (var k = 0u; k < count; k++) {
+                let other = select(row.second + k - row.first_count, row.first + k, k < row.first_count);
+                let offset = (sorted[other].xyz - position) * per_support;
+                let squared = dot(offset, offset);
+                let weight = max(1.0 - squared * sqrt(squared), 0.0);
+                let weighted = weight * offset;
+                moments.weight += weight;
+                moments.first += weighted;
+                moments.diagonal += weighted * offset;
+                moments.mixed += weighted.yzx * offset.zxy;
             }
         }
     }
@@ -117,7 +131,7 @@ fn anisotropy(
     }
     let index = list[1u + item];
     let particle = sorted[index];
-    let support = support_of(particle.w, grid);
+    let support = max(support_of(particle.w, grid), 1e-18);
     let moments = moments_of(particle.xyz, support);
 
     let weight = max(moments.weight, 1.0);

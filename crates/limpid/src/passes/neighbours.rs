@@ -10,6 +10,9 @@ const ROW: u64 = 16;
 /// Buckets of the smallest table: one block of `grid.wgsl`'s cells.
 const BLOCK_CELLS: u64 = 1024;
 
+/// Buckets of the largest table, which the smallest binding limit of any device holds.
+const MOST_BUCKETS: u64 = 1 << 24;
+
 pub(crate) struct Neighbours {
     count: Kernel,
     allocate: Kernel,
@@ -51,7 +54,8 @@ impl Neighbours {
     /// Sorts one chunk; `grid` is `grid.wgsl`'s uniform.
     pub fn encode(&mut self, recorder: &mut Recorder<'_>, grid: &wgpu::Buffer, chunk: &Chunk) -> Sorted {
         let device = recorder.device;
-        let buckets = chunk.count.next_power_of_two().max(BLOCK_CELLS);
+        // A few for each particle: blocks of cells are mostly empty.
+        let buckets = (4 * chunk.count).next_power_of_two().clamp(BLOCK_CELLS, MOST_BUCKETS);
         let sorted = Sorted {
             count: chunk.count,
             buckets,

@@ -88,7 +88,8 @@ fn gather(
         }
     }
     if settings.density_threshold > 0.0 && densities[index] < settings.density_threshold {
-        particle.w = 0.0;
+        // Out of reach of all others.
+        particle = vec4f(particle.xyz + 1e6 * grid.cell, 0.0);
     }
     sorted[place] = particle;
 }

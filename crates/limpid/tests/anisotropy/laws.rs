@@ -81,12 +81,8 @@ fn a_scene_far_from_the_origin_looks_the_same() {
 #[test]
 fn ellipsoids_keep_the_volume_of_their_spheres() {
     let anisotropy = Anisotropy { skip_hidden: false, ..Anisotropy::default() };
-    let drawn = Fluid::new().draw(
-        &marked(dam_break()),
-        &dam_view(),
-        SIZE,
-        &Settings { anisotropy, ..Settings::default() },
-    );
+    let drawn =
+        Fluid::new().draw(&marked(dam_break()), &dam_view(), SIZE, &Settings { anisotropy, ..Settings::default() });
     for ellipsoid in drawn.ellipsoids {
         let volume = ellipsoid.shape.determinant();
         assert!((volume - 1.0).abs() < 0.01, "{volume}");
@@ -115,7 +111,8 @@ fn lines_and_planes_hold_together() {
     let mut fluid = Fluid::new();
     let view = from_above(20.0);
     let dense = |k: i32| 0.25 * k as f32;
-    let line = fluid.draw(&marked((-60..=60).map(|k| Vec3::new(dense(k), 0.0, 0.0))), &view, SIZE, &Settings::default());
+    let line =
+        fluid.draw(&marked((-60..=60).map(|k| Vec3::new(dense(k), 0.0, 0.0))), &view, SIZE, &Settings::default());
     let middle = |drawn: &Drawn, x: u32, y: u32| drawn.depth[(y * SIZE[0] + x) as usize];
     for x in 60..SIZE[0] - 60 {
         assert!((49.0..50.0).contains(&middle(&line, x, SIZE[1] / 2)), "{}", middle(&line, x, SIZE[1] / 2));

@@ -15,8 +15,7 @@ fn all() -> Settings {
 /// Compares every `step`th particle; `reach` is the farthest that any may look for neighbours.
 fn compare(particles: &[Particle], step: usize, reach: f64) {
     let settings = all();
-    let drawn =
-        Fluid::new().draw(particles, &looking(DVec3::new(0.0, 30.0, 90.0), DVec3::ZERO), SIZE, &settings);
+    let drawn = Fluid::new().draw(particles, &looking(DVec3::new(0.0, 30.0, 90.0), DVec3::ZERO), SIZE, &settings);
     assert_eq!(drawn.ellipsoids.len(), particles.len());
     let mut met = vec![false; particles.len()];
     for ellipsoid in drawn.ellipsoids {
@@ -27,7 +26,13 @@ fn compare(particles: &[Particle], step: usize, reach: f64) {
             // Beside the sums' own rounding, that of positions far from the origin.
             let off = (ellipsoid.center - twin.center).length() - 2e-7 * twin.center.length();
             let bent = (ellipsoid.shape - twin.shape).to_cols_array().into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-            assert!(off < 2e-4, "center of {index}: {} for {}, {} neighbours", ellipsoid.center, twin.center, twin.neighbours);
+            assert!(
+                off < 2e-4,
+                "center of {index}: {} for {}, {} neighbours",
+                ellipsoid.center,
+                twin.center,
+                twin.neighbours
+            );
             assert!(
                 bent < 3e-3,
                 "shape of {index}: {} for {}, {} neighbours, {:?}",
