@@ -16,6 +16,10 @@ fn sphere(center: vec3f, radius: f32) -> Ball {
     return Ball(center, radius, radius * radius * unit, unit, radius);
 }
 
+fn is_drawn(ball: Ball) -> bool {
+    return ball.radius > 0.0 && ball.reach - ball.center.z > view.near;
+}
+
 // The depths at which a ray enters and leaves the part of a ball that lies beyond the near plane, and its length inside;
 // length 0: it misses. Measured from the ray's nearest point to the centre, which keeps the digits in float32.
 struct Chord {

@@ -57,7 +57,7 @@ pub struct Options {
     /// Leave particles of lower density out of the picture, in the file's unit; 0 keeps all
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub density_threshold: Option<f64>,
-    /// Stretch particles along the surface as their neighbours lie
+    /// Stretch particles along the surface as their neighbours lie; off draws spheres, and smooths them more
     #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Surface")]
     pub anisotropy: Option<Named<bool>>,
     /// Anisotropy: largest ratio of a stretched particle's longest axis to its shortest
@@ -170,9 +170,13 @@ impl Options {
         }
     }
 
-    /// What the choices of a layer (quality, filter) imply for other options.
+    /// What the choices of a layer (quality, filter, anisotropy) imply for other options.
     pub fn implied(&self) -> Self {
-        let smoothing = self.filter.map(|filter| Self::of_smoothing(&Smoothing::of(filter.0))).unwrap_or_default();
+        let mut smoothing = self.filter.map(|filter| Self::of_smoothing(&Smoothing::of(filter.0))).unwrap_or_default();
+        if let Some(Named(ellipsoids)) = self.anisotropy {
+            let strength = if ellipsoids { Smoothing::default().strength } else { Smoothing::SPHERES_STRENGTH };
+            smoothing.strength = Some(widen(strength));
+        }
         let standard = Settings::default();
         let scales = self.quality.map(|quality| match quality.0 {
             Quality::Draft => (Scale::Half, Scale::Quarter),

@@ -4,10 +4,6 @@
 @group(1) @binding(1) var<storage, read> densities: array<f32>; // one for each particle of spheres, or unused
 @group(1) @binding(2) var<storage, read> shapes: array<vec4u>; // shape.wgsl's; one for each particle of ellipsoids, or unused
 
-fn is_drawn(ball: Ball) -> bool {
-    return ball.radius > 0.0 && ball.reach - ball.center.z > view.near;
-}
-
 // Radius 0: left out.
 fn ball_of(index: u32) -> Ball {
     let particle = particles[index];

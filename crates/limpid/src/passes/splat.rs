@@ -44,8 +44,16 @@ impl Kernels {
 
 impl Splat {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module =
-            module!(device, "splat", "../frame.wgsl", "shape.wgsl", "../ball.wgsl", "balls.wgsl", "splat.wgsl");
+        let module = module!(
+            device,
+            "splat",
+            "../frame.wgsl",
+            "shape.wgsl",
+            "../ball.wgsl",
+            "balls.wgsl",
+            "covered.wgsl",
+            "splat.wgsl"
+        );
         Self {
             spheres: Kernels::new(device, frame, &module, false),
             ellipsoids: Kernels::new(device, frame, &module, true),

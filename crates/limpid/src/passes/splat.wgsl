@@ -4,7 +4,7 @@
 @group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the ellipsoids to draw; spheres: all, unused
 @group(1) @binding(4) var<storage, read_write> nearness: array<atomic<u32>>;
 @group(1) @binding(5) var<storage, read_write> large: LargeSplats;
-@group(1) @binding(6) var<storage, read_write> covered: array<atomic<u32>>; // per block: nearness bits that all its pixels reach
+@group(1) @binding(6) var<storage, read_write> covered: array<atomic<u32>>; // covered.wgsl
 @group(1) @binding(7) var<storage, read_write> large_groups: vec3u; // indirect dispatch of splat_large
 
 struct LargeSplats {
@@ -58,6 +58,12 @@ fn splat_small(
         return;
     }
     let box = texel_box(ball, 1.0, view.size);
+    if ELLIPSOIDS {
+        // A ball that covers no pixel may still be a speck.
+        if all(box.max >= box.min) && !can_show(ball, box) {
+            return;
+        }
+    }
     let extent = max(box.max - box.min + 1, vec2i(0));
     if extent.x * extent.y > LARGE_PX {
         large.indices[atomicAdd(&large.count, 1u)] = index;

@@ -11,11 +11,10 @@ const LEVELS: u64 = 6;
 pub(crate) struct Visible {
     find_fronts: Kernel,
     list_fronts: Kernel,
-    fill_tiles: Kernel,
+    cover_tiles: Kernel,
     list_rest: Kernel,
     count_list: Kernel,
     fronts: GrowBuffer,
-    filled: GrowBuffer,
     items: GrowBuffer,
     groups: wgpu::Buffer,
 }
@@ -39,18 +38,18 @@ pub(crate) enum Stage {
 
 impl Visible {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "visible", "../frame.wgsl", "../ball.wgsl", "grid.wgsl", "visible.wgsl");
+        let module =
+            module!(device, "visible", "../frame.wgsl", "../ball.wgsl", "covered.wgsl", "grid.wgsl", "visible.wgsl");
         let [read, write] = [Slot::Read, Slot::Write];
         let slots = [Slot::Uniform, read, write, read, write, write, write];
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &slots);
         Self {
             find_fronts: kernel("find_fronts"),
             list_fronts: kernel("list_fronts"),
-            fill_tiles: kernel("fill_tiles"),
+            cover_tiles: kernel("cover_tiles"),
             list_rest: kernel("list_rest"),
             count_list: kernel("count_list"),
             fronts: GrowBuffer::new("fronts"),
-            filled: GrowBuffer::new("filled tiles"),
             items: GrowBuffer::new("visible particles"),
             groups: storage_buffer(device, "visible groups", 12),
         }
@@ -74,7 +73,7 @@ impl Visible {
             sorted.particles(),
             fronts.as_entire_binding(),
             targets.raw.as_entire_binding(),
-            self.filled.reserve(device, 4 * tiles).as_entire_binding(),
+            targets.covered.as_entire_binding(),
             items.as_entire_binding(),
             self.groups.as_entire_binding(),
         ];
@@ -87,7 +86,7 @@ impl Visible {
                 recorder.run("anisotropy", &self.list_fronts, &resources, &particles);
             }
             Stage::Rest => {
-                recorder.run("anisotropy", &self.fill_tiles, &resources, &Grid::Items(tiles, 64));
+                recorder.run("anisotropy", &self.cover_tiles, &resources, &Grid::Items(tiles, 64));
                 recorder.run("anisotropy", &self.list_rest, &resources, &particles);
             }
         }

@@ -7,7 +7,7 @@
 @group(1) @binding(1) var<storage, read> sorted: array<vec4f>; // neighbours.wgsl's
 @group(1) @binding(2) var<storage, read_write> fronts: array<atomic<u32>>; // per level and tile: nearness of its nearest centre
 @group(1) @binding(3) var<storage, read> nearness: array<u32>; // bits, after the first stage
-@group(1) @binding(4) var<storage, read_write> filled: array<u32>; // per tile: nearness bits that all its pixels reach
+@group(1) @binding(4) var<storage, read_write> covered: array<atomic<u32>>;
 @group(1) @binding(5) var<storage, read_write> list: List;
 @group(1) @binding(6) var<storage, read_write> list_groups: vec3u; // indirect dispatch of a lane for each in the list
 
@@ -16,13 +16,8 @@ struct List {
     items: array<u32>, // order varies, results do not
 }
 
-const TILE: i32 = 8; // pixels
 const LEVELS: u32 = 6u; // of `fronts`, each of tiles twice as wide
 const FRONT: f32 = 2.0; // r behind the nearest centre that the first stage draws
-
-fn tiles_across() -> i32 {
-    return (i32(view.size.x) + TILE - 1) / TILE;
-}
 
 struct Center {
     depth: f32,
@@ -39,10 +34,9 @@ fn center_of(particle: vec4f) -> Center {
     let level = u32(clamp(ceil(log2(max(width, 1.0))), 0.0, f32(LEVELS - 1u)));
     let seen = depth > view.near && all(px >= vec2f(0.0)) && all(px < vec2f(view.size)) && particle.w > 0.0;
     let tile = vec2i(select(vec2f(0.0), px, seen)) / TILE;
-    let across = tiles_across();
-    let down = (i32(view.size.y) + TILE - 1) / TILE;
+    let tiles = tile_counts();
     let shifted = tile >> vec2u(level);
-    return Center(depth, level * u32(across * down) + u32(shifted.y * across + shifted.x), seen);
+    return Center(depth, level * u32(tiles.x * tiles.y) + u32(shifted.y * tiles.x + shifted.x), seen);
 }
 
 @compute @workgroup_size(64)
@@ -84,13 +78,14 @@ fn list_fronts(
 }
 
 @compute @workgroup_size(64)
-fn fill_tiles(
+fn cover_tiles(
     @builtin(workgroup_id) group: vec3u,
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
     let item = i32(item_index(group, groups, lane, 64u));
-    let low = vec2i(item % tiles_across(), item / tiles_across()) * TILE;
+    let tile = vec2i(item % tile_counts().x, item / tile_counts().x);
+    let low = tile * TILE;
     let high = min(low + TILE, vec2i(view.size));
     if low.y >= high.y {
         return;
@@ -101,7 +96,7 @@ fn fill_tiles(
             least = min(least, nearness[u32(y) * view.size.x + u32(x)]);
         }
     }
-    filled[item] = least;
+    atomicStore(&covered[covered_tile(tile)], least);
 }
 
 // No ellipsoid of the particle reaches farther than this from its place: its longest axis, where the two others are
@@ -118,26 +113,9 @@ fn show_box(bounds: Ball) -> PixelBox {
     return PixelBox(max(box.min - margin, vec2i(0)), min(box.max + margin, vec2i(view.size) - 1));
 }
 
-fn can_show(particle: vec4f) -> bool {
-    let reach = most_reach(particle.w);
-    let center = (view.view_from_local * vec4f(particle.xyz, 1.0)).xyz;
-    if particle.w <= 0.0 {
-        return false;
-    }
-    if reach - center.z <= view.near {
-        return false;
-    }
-    let box = show_box(sphere(center, reach));
-    // As many units in the last place as the rounding of chords could bring it nearer, and more.
-    let nearest = bitcast<u32>(nearness_of(max(-center.z - reach, view.near))) + 64u;
-    for (var y = box.min.y / TILE; y <= box.max.y / TILE; y++) {
-        for (var x = box.min.x / TILE; x <= box.max.x / TILE; x++) {
-            if filled[y * tiles_across() + x] < nearest {
-                return true;
-            }
-        }
-    }
-    return false;
+fn shape_can_show(particle: vec4f) -> bool {
+    let bounds = sphere((view.view_from_local * vec4f(particle.xyz, 1.0)).xyz, most_reach(particle.w));
+    return is_drawn(bounds) && can_show(bounds, show_box(bounds));
 }
 
 @compute @workgroup_size(64)
@@ -149,8 +127,8 @@ fn list_rest(
     let index = item_index(group, groups, lane, 64u);
     if index < arrayLength(&sorted) {
         let particle = sorted[index];
-        if !is_in_front(particle) {
-            if can_show(particle) {
+        if particle.w > 0.0 && !is_in_front(particle) {
+            if shape_can_show(particle) {
                 list.items[atomicAdd(&list.count, 1u)] = index;
             }
         }

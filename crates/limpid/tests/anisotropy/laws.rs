@@ -22,23 +22,21 @@ fn skipping_hidden_particles_changes_no_bit() {
         let without = fluid.draw(particles, view, SIZE, &Settings { anisotropy, ..settings });
         assert!(bits(&with) == bits(&without));
         let worked_on = with.ellipsoids.iter().filter(|e| e.shape != DMat3::IDENTITY).count();
-        println!("{worked_on} of {} particles", particles.len());
-        assert!(worked_on as f64 <= most * particles.len() as f64);
+        assert!(worked_on as f64 <= most * particles.len() as f64, "{worked_on} of {} particles", particles.len());
     };
     let base = Settings::default();
-    let smooth = Settings { anisotropy: Anisotropy { center_smoothing: 0.9, ..base.anisotropy }, ..base };
+    let still = Settings { anisotropy: Anisotropy { center_smoothing: 0.0, ..base.anisotropy }, ..base };
     let coarse = Settings { filter_scale: Scale::Quarter, ..base };
     let dam = marked(dam_break());
     let block = marked(slab(15, 20, 0.2));
-    for settings in [base, smooth, coarse] {
+    for settings in [base, still, coarse] {
         check(&dam, &dam_view(), settings, 1.0);
-        check(&dam, &looking(DVec3::new(-10.0, 30.0, 20.0), DVec3::new(0.0, 0.0, 0.0)), settings, 1.0);
-        check(&dam, &looking(DVec3::new(0.0, 5.0, 0.0), DVec3::new(30.0, 2.0, 10.0)), settings, 1.0);
+        check(&dam, &looking(DVec3::new(-10.0, 30.0, 20.0), DVec3::ZERO), settings, 0.8);
+        check(&dam, &looking(DVec3::new(0.0, 5.0, 0.0), DVec3::new(30.0, 2.0, 10.0)), settings, 0.8);
         check(&block, &looking(DVec3::new(30.0, 40.0, 60.0), DVec3::new(0.0, -20.0, 0.0)), settings, 1.0);
-        check(&block, &from_above(40.0), settings, 1.0);
+        check(&block, &from_above(40.0), settings, 0.8);
         check(&marked(cloud(3000, 15.0, 11)), &looking(DVec3::Z * 50.0, DVec3::ZERO), settings, 1.0);
     }
-    check(&block, &from_above(40.0), base, 0.4);
 }
 
 #[test]

@@ -20,12 +20,7 @@ fn ellipsoids_are_more_even_than_spheres() {
     let spheres = roughness(Anisotropy { enabled: false, ..Anisotropy::default() });
     let still = roughness(Anisotropy { center_smoothing: 0.0, ..Anisotropy::default() });
     let default = roughness(Anisotropy::default());
-    let moved = roughness(Anisotropy { center_smoothing: 0.9, ..Anisotropy::default() });
-    for l in [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7] {
-        println!("{l} {}", roughness(Anisotropy { center_smoothing: l, ..Anisotropy::default() }));
-    }
-    println!("spheres {spheres:.3} r, ellipsoids {still:.3}, default {default:.3}, centres smoothed by 0.9 {moved:.3}");
+    println!("spheres {spheres:.3} r, ellipsoids {still:.3}, with centres smoothed {default:.3}");
     assert!(still < spheres / 2.0);
-    assert!(moved < spheres / 3.0);
-    assert!(default < spheres / 2.0);
+    assert!(default < spheres / 3.0);
 }

@@ -40,7 +40,18 @@ pub fn ellipsoid(particles: &[Particle], index: usize, settings: &Anisotropy, re
     let shape = vectors * DMat3::from_diagonal(DVec3::from_array(axes)) * vectors.transpose();
     let mut flatness = values.map(|value| value / largest);
     flatness.sort_by(f64::total_cmp);
-    Twin { neighbours, center: place + f64::from(settings.center_smoothing) * trust * support * mean, shape, flatness }
+    let moved = f64::from(settings.center_smoothing) * trust * support * evening(mean);
+    Twin { neighbours, center: place + moved, shape, flatness }
+}
+
+/// How far a particle moves towards the mean of its neighbours: by as much as that is farther than on a flat surface, and
+/// with a smooth transition to none inside.
+fn evening(mean: DVec3) -> DVec3 {
+    const FLAT: f64 = 0.235;
+    let distance = mean.length();
+    let ratio = distance / FLAT;
+    let kept = if ratio < 1.0 { FLAT * (2.0 * ratio - ratio * ratio) } else { FLAT };
+    if distance > 0.0 { mean / distance * (distance - kept).min(0.15) } else { DVec3::ZERO }
 }
 
 /// Eigenvalues and vectors of a symmetric matrix: Jacobi's method until nothing is left off the diagonal.
