@@ -54,14 +54,14 @@ pub struct Anisotropy {
     pub enabled: bool,
     /// Largest ratio of a ball's longest axis to its shortest, 1 to 16, default 4 (Xu et al. 2022, section 4.2).
     pub kappa: f32,
-    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.2: a particle at rest has
-    /// about 65 there. Wider is smoother, but the surface then lags behind what moves. A particle of more than twice the
+    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.4: a particle at rest has
+    /// about 70 there. Wider is smoother, but the surface then lags behind what moves. A particle of more than twice the
     /// median radius looks no farther than one of twice the median.
     pub support: f32,
     /// Particles with fewer neighbours turn round, wholly so at half as many; 1 to 200, default 22 (20 and 25 in the two
     /// papers). Neighbours count by their weight: as one on average, as nothing at the support's edge, so that none pops.
     pub min_neighbours: f32,
-    /// How far centres move to where the mean of their neighbours has them, which evens the surface out; 0 to 1, default 0.9
+    /// How far centres move to where the mean of their neighbours has them, which evens the surface out; 0 to 1, default 1
     /// (lambda of Yu and Turk 2013, Eq. 6, but a flat surface is not drawn in).
     pub center_smoothing: f32,
     /// Whether to leave out particles that provably cannot show, default yes: the depth is the same to the bit, sooner.
@@ -71,7 +71,7 @@ pub struct Anisotropy {
 
 impl Default for Anisotropy {
     fn default() -> Self {
-        Self { enabled: true, kappa: 4.0, support: 5.2, min_neighbours: 22.0, center_smoothing: 0.9, skip_hidden: true }
+        Self { enabled: true, kappa: 4.0, support: 5.4, min_neighbours: 22.0, center_smoothing: 1.0, skip_hidden: true }
     }
 }
 
@@ -118,7 +118,7 @@ pub struct Smoothing {
     /// Which filter.
     pub filter: Filter,
     /// Smoothing length in r, 0 to 20: the standard deviation of the filter's Gaussian over the surface, the same
-    /// meaning for every filter. Default 0.9, which suits ellipsoids; [`Smoothing::SPHERES_STRENGTH`] suits spheres.
+    /// meaning for every filter. Default 0.82, which suits ellipsoids; [`Smoothing::SPHERES_STRENGTH`] suits spheres.
     pub strength: f32,
     /// How often the filter is applied, 1 to 100, default 1.
     pub iterations: u32,
@@ -142,7 +142,7 @@ impl Smoothing {
 
     /// The defaults of one filter.
     pub const fn of(filter: Filter) -> Self {
-        Self { filter, strength: 0.9, iterations: 1, max_radius_px: 100, range: 10.0, clamp: 1.0 }
+        Self { filter, strength: 0.82, iterations: 1, max_radius_px: 100, range: 10.0, clamp: 1.0 }
     }
 }
 
