@@ -1,20 +1,23 @@
-// Drawn balls: solid spheres of the liquid, cut open at the near plane.
+// Drawn balls: solid spheres or ellipsoids of the liquid, cut open at the near plane.
+
+// Whether balls may be stretched; all are spheres else.
+override ELLIPSOIDS: bool = true;
 
 struct Ball {
     center: vec3f, // view space
-    radius: f32, // drawn, world units
-    drawn: bool,
+    radius: f32, // drawn, world units; of the sphere of the same volume
+    spread: mat3x3f, // A transpose(A), where the ball is center + A u, |u| <= 1: sqrt(spread[k][k]) is its half-extent on axis k
+    round_from_view: mat3x3f, // from view space to one in which the ball is a sphere of its radius
+    reach: f32, // half-extent along the view's axis
 }
 
-@group(1) @binding(0) var<storage, read> particles: array<vec4f>; // local position, particle radius
-@group(1) @binding(1) var<storage, read> densities: array<f32>; // one for each particle, or a single unused 0
+fn sphere(center: vec3f, radius: f32) -> Ball {
+    let unit = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    return Ball(center, radius, radius * radius * unit, unit, radius);
+}
 
-fn ball_of(index: u32) -> Ball {
-    let particle = particles[index];
-    let center = (view.view_from_local * vec4f(particle.xyz, 1.0)).xyz;
-    let radius = particle.w * settings.splat_scale;
-    let stray = settings.density_threshold > 0.0 && densities[index] < settings.density_threshold;
-    return Ball(center, radius, !stray && radius - center.z > view.near);
+fn is_drawn(ball: Ball) -> bool {
+    return ball.radius > 0.0 && ball.reach - ball.center.z > view.near;
 }
 
 // The depths at which a ray enters and leaves the part of a ball that lies beyond the near plane, and its length inside;
@@ -26,10 +29,15 @@ struct Chord {
 }
 
 fn ball_chord(ball: Ball, ray: Ray) -> Chord {
-    let to_center = ball.center - ray.origin;
-    let squared = dot(ray.direction, ray.direction);
-    let closest = dot(to_center, ray.direction) / squared;
-    let offset = to_center - closest * ray.direction;
+    var to_center = ball.center - ray.origin;
+    var direction = ray.direction;
+    if ELLIPSOIDS {
+        to_center = ball.round_from_view * to_center;
+        direction = ball.round_from_view * direction;
+    }
+    let squared = dot(direction, direction);
+    let closest = dot(to_center, direction) / squared;
+    let offset = to_center - closest * direction;
     let half_squared = ball.radius * ball.radius - dot(offset, offset);
     if half_squared <= 0.0 {
         return Chord(0.0, 0.0, 0.0);
@@ -37,33 +45,43 @@ fn ball_chord(ball: Ball, ray: Ray) -> Chord {
     let half = sqrt(half_squared / squared);
     let enter = max(closest - half, view.near);
     let leave = closest + half;
-    return Chord(enter, leave, max(leave - enter, 0.0) * sqrt(squared));
+    return Chord(enter, leave, max(leave - enter, 0.0) * length(ray.direction));
 }
 
-// The exact range of ray slopes (perspective) or positions (orthographic) along one axis of a ball beyond the near plane:
-// `across` is its centre on that axis, `depth` its view depth. In this plane the ball is a disc; the ends of its image are
-// the tangents from the eye, or, where the near plane cuts them off, the corners of the cut.
-fn axis_range(across: f32, depth: f32, radius: f32) -> vec2f {
-    let cut = view.near - depth;
-    let corner = sqrt(max(radius * radius - cut * cut, 0.0));
+// The exact range of ray slopes (perspective) or positions (orthographic) along one axis of a ball beyond the near plane.
+// On that axis and depth the ball is an ellipse, `center` + L q with |q| <= 1, where L L^T is its spread (across, both,
+// depth). The ends of its image are the tangents from the eye, or, where the near plane cuts them off, the corners of the
+// cut (Sigg et al. 2006 in the circle's space, where nothing cancels).
+fn axis_range(center: vec2f, spread: vec3f) -> vec2f {
+    let deep = sqrt(spread.z);
+    let shear = spread.y / deep;
+    let wide = sqrt(max(spread.x - shear * shear, 0.0));
+    let cut = (view.near - center.y) / deep;
+    let corner = sqrt(max(1.0 - cut * cut, 0.0));
+    let cut_middle = center.x + shear * cut;
     if !is_perspective() {
-        return vec2f(across) + select(radius, corner, cut > 0.0) * vec2f(-1.0, 1.0);
+        // The ends of the ellipse lie at this depth, in the circle's space, and its mirror image.
+        let widest = sqrt(spread.x);
+        let end = shear / widest;
+        return vec2f(
+            select(center.x - widest, cut_middle - wide * corner, -end < cut),
+            select(center.x + widest, cut_middle + wide * corner, end < cut),
+        );
     }
     var low = 3.4e38;
     var high = -3.4e38;
-    if depth - radius < view.near {
-        low = (across - corner) / view.near;
-        high = (across + corner) / view.near;
+    if cut > -1.0 {
+        low = (cut_middle - wide * corner) / view.near;
+        high = (cut_middle + wide * corner) / view.near;
     }
-    let tangent_squared = across * across + (depth - radius) * (depth + radius);
-    if tangent_squared > 0.0 {
-        let tangent = sqrt(tangent_squared);
-        // Tangent points in the disc's plane; each counts where it lies beyond the near plane.
-        let squared = across * across + depth * depth;
+    let eye = vec2f((shear * center.y / deep - center.x) / wide, -center.y / deep);
+    let squared = dot(eye, eye);
+    if squared > 1.0 {
+        let tangent = sqrt(squared - 1.0);
         for (var side = -1.0; side <= 1.0; side += 2.0) {
-            let tangent_depth = tangent * (tangent * depth - side * radius * across) / squared;
-            if tangent_depth >= view.near {
-                let slope = (tangent * across + side * radius * depth) / (tangent * depth - side * radius * across);
+            let touch = (eye + side * tangent * vec2f(-eye.y, eye.x)) / squared;
+            if touch.y >= cut {
+                let slope = (center.x + shear * touch.y + wide * touch.x) / (center.y + deep * touch.y);
                 low = min(low, slope);
                 high = max(high, slope);
             }
@@ -79,8 +97,11 @@ struct PixelBox {
 
 // The texels of an image of `size`, `px` pixels along a texel, whose centres the ball can cover.
 fn texel_box(ball: Ball, px: f32, size: vec2u) -> PixelBox {
-    let x = (axis_range(ball.center.x, -ball.center.z, ball.radius) - view.px_zero.x) / (view.px_step.x * px);
-    let y = (axis_range(ball.center.y, -ball.center.z, ball.radius) - view.px_zero.y).yx / (view.px_step.y * px);
+    let spread = ball.spread; // of view space, whose z runs against the depth
+    let x_range = axis_range(vec2f(ball.center.x, -ball.center.z), vec3f(spread[0][0], -spread[0][2], spread[2][2]));
+    let y_range = axis_range(vec2f(ball.center.y, -ball.center.z), vec3f(spread[1][1], -spread[1][2], spread[2][2]));
+    let x = (x_range - view.px_zero.x) / (view.px_step.x * px);
+    let y = (y_range - view.px_zero.y).yx / (view.px_step.y * px);
     // Clamped as floats first: the conversion of a huge float is not defined. A hundredth of a texel of slack absorbs rounding.
     let limit = vec2f(size);
     let low = clamp(ceil(vec2f(x.x, y.x) - 0.51), vec2f(0.0), limit);

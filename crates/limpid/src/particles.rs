@@ -39,6 +39,13 @@ impl ParticleSlices<'_> {
         }
     }
 
+    fn largest_radius(&self) -> f32 {
+        match self.radius {
+            Radius::Uniform(radius) => radius,
+            Radius::Each(radii) => radii.iter().copied().fold(0.0, f32::max),
+        }
+    }
+
     pub(crate) fn check(&self) -> Result<(), Error> {
         let count = self.positions.len();
         let bad = |text: String| Err(Error::Particles(text));
@@ -73,16 +80,41 @@ pub struct Particles {
     pub(crate) chunks: Vec<Chunk>,
     pub(crate) origin: DVec3,
     pub(crate) reference_radius: f32,
+    pub(crate) largest_radius: f32,
     has_density: bool,
 }
 
-/// Particles that one dispatch can bind.
+/// Particles that one dispatch can bind, as the balls that `ball.wgsl` reads. Buffers may be larger.
 pub(crate) struct Chunk {
     pub count: u64,
     /// vec4: local position, radius.
     pub positions: wgpu::Buffer,
     /// f32, or a single unused one.
     pub densities: wgpu::Buffer,
+    /// `shape.wgsl`'s vec4u of each ellipsoid; None: spheres.
+    pub shapes: Option<wgpu::Buffer>,
+}
+
+impl Chunk {
+    /// vec4 of each particle.
+    pub fn positions(&self) -> wgpu::BindingResource<'_> {
+        first_bytes(&self.positions, 16 * self.count)
+    }
+
+    /// `ball.wgsl`'s bindings.
+    pub fn bindings(&self) -> [wgpu::BindingResource<'_>; 3] {
+        let unused = &self.positions;
+        [
+            self.positions(),
+            self.densities.as_entire_binding(),
+            self.shapes.as_ref().unwrap_or(unused).as_entire_binding(),
+        ]
+    }
+}
+
+/// A binding of the start of a buffer that may be larger.
+pub(crate) fn first_bytes(buffer: &wgpu::Buffer, bytes: u64) -> wgpu::BindingResource<'_> {
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size: wgpu::BufferSize::new(bytes) })
 }
 
 impl Particles {
@@ -108,12 +140,14 @@ impl Particles {
                 count: positions.len() as u64,
                 positions: filled_buffer(device, queue, "particles", bytemuck::cast_slice(&packed)),
                 densities: filled_buffer(device, queue, "densities", bytemuck::cast_slice(densities)),
+                shapes: None,
             }
         });
         Ok(Self {
             chunks: chunks.collect(),
             origin: slices.origin,
             reference_radius: slices.reference_radius(),
+            largest_radius: slices.largest_radius(),
             has_density: slices.density.is_some(),
         })
     }

@@ -3,7 +3,7 @@
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Curvature, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
+    Composite, Curvature, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
     level_count,
 };
 use crate::shadow::{FloorShadow, Shadow};
@@ -130,6 +130,7 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     view: wgpu::Buffer,
     settings: wgpu::Buffer,
+    ellipsoids: Ellipsoids,
     splat: Splat,
     tiles: Tiles,
     thickness: Thickness,
@@ -197,6 +198,7 @@ impl Renderer {
         Self {
             view: uniform_buffer::<ViewUniform>(device, "view"),
             settings: uniform_buffer::<SettingsUniform>(device, "settings"),
+            ellipsoids: Ellipsoids::new(device, &layout),
             splat: Splat::new(device, &layout),
             tiles: Tiles::new(device, &layout),
             thickness: Thickness::new(device, &layout),
@@ -281,6 +283,7 @@ impl Renderer {
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
+        self.ellipsoids.write(queue, particles, &settings.anisotropy);
         let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
         let shadow = self.shadow_tint.take();
         self.shade.write(queue, &optics, &frame.environment.uniform(frame.view, shadow.as_ref()));
@@ -288,9 +291,16 @@ impl Renderer {
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
 
         let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
-        self.splat.encode(recorder, &particles.chunks, &targets);
+        self.splat.clear(recorder, &targets);
+        let balls = if settings.anisotropy.enabled {
+            let skip_hidden = settings.anisotropy.skip_hidden;
+            self.ellipsoids.encode(recorder, particles, &mut self.splat, &targets, skip_hidden)
+        } else {
+            particles.chunks.iter().for_each(|chunk| self.splat.spheres(recorder, chunk, &targets));
+            &particles.chunks
+        };
         self.tiles.encode(recorder, &targets);
-        self.thickness.splat(recorder, "splat-thickness", &particles.chunks, scene.depth, &targets.thickness);
+        self.thickness.splat(recorder, "splat-thickness", balls, scene.depth, &targets.thickness);
         if settings.thickness_blur {
             self.thickness.blur(recorder, &targets);
         }
@@ -329,6 +339,11 @@ impl Renderer {
         Some(curvature)
     }
 
+    /// The particles of the last frame with [`crate::Anisotropy`], for reading back.
+    pub fn ellipsoids(&self) -> impl Iterator<Item = EllipsoidBuffers<'_>> {
+        self.ellipsoids.buffers()
+    }
+
     /// The buffers of the last prepared frame, for reading back; None before the first.
     pub fn buffers(&self) -> Option<FrameBuffers<'_>> {
         let targets = self.targets.as_ref()?;
@@ -348,6 +363,18 @@ impl Renderer {
             },
         })
     }
+}
+
+/// The ellipsoids of some of the particles, in no particular order. Buffers may be larger.
+#[derive(Clone, Copy)]
+pub struct EllipsoidBuffers<'a> {
+    /// How many.
+    pub count: u64,
+    /// Four f32 each: the drawn centre about the particles' origin, and the particle's radius; 0: stray.
+    pub balls: &'a wgpu::Buffer,
+    /// Eight f16 each: a symmetric matrix less the identity (xx, yy, zz, xy, xz, yz) and two unused. It makes the ellipsoid
+    /// from the sphere of the same volume. Particles that cannot show are spheres.
+    pub shapes: &'a wgpu::Buffer,
 }
 
 /// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is not

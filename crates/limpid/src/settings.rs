@@ -18,6 +18,8 @@ pub struct Settings {
     pub thickness_blur: bool,
     /// Where the fluid is thinner than this many r the background shows; 0, the default, shows all fluid.
     pub min_thickness: f32,
+    /// How particles are stretched along the surface.
+    pub anisotropy: Anisotropy,
     /// How the surface is smoothed.
     pub smoothing: Smoothing,
     /// Resolution at which the fluid is splatted, smoothed and shaded, default full; the shaded colour is blended up to
@@ -38,11 +40,42 @@ impl Default for Settings {
             thickness_scale: Scale::Half,
             thickness_blur: true,
             min_thickness: 0.0,
+            anisotropy: Anisotropy::default(),
             smoothing: Smoothing::default(),
             filter_scale: Scale::Full,
             normal_step: 3.0,
             optics: Optics::default(),
         }
+    }
+}
+
+/// Ellipsoids in place of spheres (Xu et al. 2022, after Yu and Turk 2013): each particle is stretched along the surface as
+/// its neighbours lie, with its volume kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anisotropy {
+    /// Whether to, default no: then particles are spheres. Ellipsoids want less smoothing: see
+    /// [`Smoothing::ELLIPSOIDS_SHARE`].
+    pub enabled: bool,
+    /// Largest ratio of a ball's longest axis to its shortest, 1 to 16, default 4 (Xu et al. 2022, section 4.2).
+    pub kappa: f32,
+    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.4: a particle at rest has
+    /// about 70 there. Wider is smoother, but the surface then lags behind what moves. A particle of more than twice the
+    /// median radius looks no farther than one of twice the median.
+    pub support: f32,
+    /// Particles with fewer neighbours turn round, wholly so at half as many; 1 to 200, default 22 (20 and 25 in the two
+    /// papers). Neighbours count by their weight: as one on average, as nothing at the support's edge, so that none pops.
+    pub min_neighbours: f32,
+    /// How far centres move to where the mean of their neighbours has them, which evens the surface out; 0 to 1, default 1
+    /// (lambda of Yu and Turk 2013, Eq. 6, but a flat surface is not drawn in).
+    pub center_smoothing: f32,
+    /// Whether to leave out particles that provably cannot show, default yes: the depth is the same to the bit, sooner.
+    /// In the thickness they are spheres.
+    pub skip_hidden: bool,
+}
+
+impl Default for Anisotropy {
+    fn default() -> Self {
+        Self { enabled: false, kappa: 4.0, support: 5.4, min_neighbours: 22.0, center_smoothing: 1.0, skip_hidden: true }
     }
 }
 
@@ -133,6 +166,10 @@ impl Default for Smoothing {
 }
 
 impl Smoothing {
+    /// Share of a filter's default strength that makes ellipsoids ([`Anisotropy`]) about as smooth as all of it makes
+    /// spheres.
+    pub const ELLIPSOIDS_SHARE: f32 = 0.52;
+
     /// The defaults of one filter, chosen by docs/quality.md's figures. Narrow-range goes twice over the picture: once
     /// leaves streaks along the axes where a sheet is thin.
     pub const fn of(filter: Filter) -> Self {
@@ -217,11 +254,15 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] for the first such value.
     pub fn check(&self) -> Result<(), Error> {
-        let Self { smoothing, optics, .. } = self;
+        let Self { anisotropy, smoothing, optics, .. } = self;
         within("splat scale", self.splat_scale, 0.5..=4.0, "from 0.5 to 4")?;
         within("density threshold", self.density_threshold, 0.0..=f32::MAX, "0 or more")?;
         within("min thickness", self.min_thickness, 0.0..=f32::MAX, "0 or more")?;
         within("normal step", self.normal_step, 0.01..=1000.0, "from 0.01 to 1000")?;
+        within("kappa", anisotropy.kappa, 1.0..=16.0, "from 1 to 16")?;
+        within("support", anisotropy.support, 2.0..=12.0, "from 2 to 12")?;
+        within("min neighbours", anisotropy.min_neighbours, 1.0..=200.0, "from 1 to 200")?;
+        within("center smoothing", anisotropy.center_smoothing, 0.0..=1.0, "from 0 to 1")?;
         within("strength", smoothing.strength, 0.0..=20.0, "from 0 to 20")?;
         within("iterations", smoothing.iterations as f32, 1.0..=1000.0, "from 1 to 1000")?;
         within("max radius", smoothing.max_radius_px as f32, 1.0..=256.0, "from 1 to 256")?;

@@ -20,7 +20,7 @@ pub(crate) struct Targets {
     pub thickness_scale: Scale,
     /// f32 nearness (frame.wgsl) after the splat.
     pub raw: wgpu::Buffer,
-    /// u32 nearness bits per block that all its pixels reach.
+    /// u32 nearness bits per block, then per tile, that all its pixels reach (`covered.wgsl`).
     pub covered: wgpu::Buffer,
     /// Indirect dispatch, count and positions of the tiles that hold fluid.
     pub tiles: wgpu::Buffer,
@@ -105,7 +105,7 @@ impl Targets {
             size,
             thickness_scale,
             raw: image("raw nearness", 4 * pixels),
-            covered: image("covered blocks", 4 * cells(size, BLOCK_PX)),
+            covered: image("covered blocks", 4 * (cells(size, BLOCK_PX) + cells(size, TILE_PX))),
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],

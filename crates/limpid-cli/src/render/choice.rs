@@ -28,6 +28,10 @@ impl Choice for CurvatureFlow {
     const ALL: &'static [(&'static str, Self)] = &[("implicit", Self::Implicit), ("explicit", Self::Explicit)];
 }
 
+impl Choice for bool {
+    const ALL: &'static [(&'static str, Self)] = &[("on", true), ("off", false)];
+}
+
 impl Choice for Scale {
     const ALL: &'static [(&'static str, Self)] = &[("1", Self::Full), ("2", Self::Half), ("4", Self::Quarter)];
 }

@@ -103,11 +103,12 @@ mod tests {
     use super::*;
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 15] = [
+    const NOT_NUMBERS: [&str; 16] = [
         "input",
         "output",
         "size",
         "up",
+        "anisotropy",
         "filter",
         "curvature-flow",
         "quality",

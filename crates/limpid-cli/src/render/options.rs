@@ -57,6 +57,21 @@ pub struct Options {
     /// Leave particles of lower density out of the picture, in the file's unit; 0 keeps all
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub density_threshold: Option<f64>,
+    /// Stretch particles along the surface as their neighbours lie, and smooth them less; off draws spheres
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Surface")]
+    pub anisotropy: Option<Named<bool>>,
+    /// Anisotropy: largest ratio of a stretched particle's longest axis to its shortest
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Surface")]
+    pub kappa: Option<f64>,
+    /// Anisotropy: how far neighbours are looked for, in particle radii
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
+    pub support: Option<f64>,
+    /// Anisotropy: particles with fewer neighbours turn round, wholly so at half as many
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Surface")]
+    pub min_neighbours: Option<f64>,
+    /// Anisotropy: how far particles are drawn towards the mean of their neighbours; 1 is all the way
+    #[arg(long, value_name = "L", allow_hyphen_values = true, help_heading = "Surface")]
+    pub center_smoothing: Option<f64>,
     /// How the surface is smoothed
     #[arg(long, value_name = "NAME", value_parser = choice::<Filter>(), help_heading = "Surface")]
     pub filter: Option<Named<Filter>>,
@@ -165,14 +180,18 @@ impl Options {
         }
     }
 
-    /// What the choices of a layer (quality, filter) imply for other options.
+    /// What the choices of a layer (quality, filter, anisotropy) imply for other options.
     pub fn implied(&self) -> Self {
         let form = self.curvature_flow.map(|form| form.0);
         let smoothing = match (self.filter.map(|filter| filter.0), form) {
             (None | Some(Filter::CurvatureFlow), Some(form)) => Some(Smoothing::flow(form)),
             (filter, _) => filter.map(Smoothing::of),
         };
-        let smoothing = smoothing.as_ref().map(Self::of_smoothing).unwrap_or_default();
+        let mut smoothing = smoothing.as_ref().map(Self::of_smoothing).unwrap_or_default();
+        if let Some(Named(true)) = self.anisotropy {
+            let spheres = smoothing.strength.unwrap_or(widen(Smoothing::default().strength));
+            smoothing.strength = Some(spheres * widen(Smoothing::ELLIPSOIDS_SHARE));
+        }
         let standard = Settings::default();
         let scales = self.quality.map(|quality| match quality.0 {
             Quality::Draft => (Scale::Half, Scale::Quarter),
@@ -187,7 +206,7 @@ impl Options {
     }
 
     fn of_settings(settings: &Settings) -> Self {
-        let optics = &settings.optics;
+        let Settings { anisotropy, optics, .. } = settings;
         let (absorption, absorption_per_world) = match optics.absorption {
             Absorption::PerRadius(rgb) => (Some(rgb.map(widen)), None),
             Absorption::PerWorld(rgb) => (None, Some(rgb.map(widen))),
@@ -195,6 +214,11 @@ impl Options {
         Self {
             splat_scale: Some(widen(settings.splat_scale)),
             density_threshold: Some(widen(settings.density_threshold)),
+            anisotropy: Some(Named(anisotropy.enabled)),
+            kappa: Some(widen(anisotropy.kappa)),
+            support: Some(widen(anisotropy.support)),
+            min_neighbours: Some(widen(anisotropy.min_neighbours)),
+            center_smoothing: Some(widen(anisotropy.center_smoothing)),
             filter_scale: Some(Named(settings.filter_scale)),
             thickness_scale: Some(Named(settings.thickness_scale)),
             min_thickness: Some(widen(settings.min_thickness)),
@@ -233,6 +257,13 @@ impl Options {
         settings.thickness_scale = self.thickness_scale.map_or(settings.thickness_scale, |scale| scale.0);
         set(&mut settings.min_thickness, self.min_thickness);
         set(&mut settings.normal_step, self.normal_step);
+
+        let anisotropy = &mut settings.anisotropy;
+        anisotropy.enabled = self.anisotropy.map_or(anisotropy.enabled, |enabled| enabled.0);
+        set(&mut anisotropy.kappa, self.kappa);
+        set(&mut anisotropy.support, self.support);
+        set(&mut anisotropy.min_neighbours, self.min_neighbours);
+        set(&mut anisotropy.center_smoothing, self.center_smoothing);
 
         let smoothing = &mut settings.smoothing;
         smoothing.filter = self.filter.map_or(smoothing.filter, |filter| filter.0);

@@ -64,6 +64,18 @@ impl Kernel {
         entry_point: &str,
         slots: &[Slot],
     ) -> Self {
+        Self::with_constants(device, frame_layout, module, entry_point, slots, &[])
+    }
+
+    /// A kernel with the module's overrides set.
+    pub fn with_constants(
+        device: &wgpu::Device,
+        frame_layout: &wgpu::BindGroupLayout,
+        module: &wgpu::ShaderModule,
+        entry_point: &str,
+        slots: &[Slot],
+        constants: &[(&str, f64)],
+    ) -> Self {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(entry_point),
             entries: &slot_entries(slots, wgpu::ShaderStages::COMPUTE),
@@ -78,7 +90,7 @@ impl Kernel {
             layout: Some(&pipeline_layout),
             module,
             entry_point: Some(entry_point),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
             cache: None,
         });
         Self { pipeline, layout }

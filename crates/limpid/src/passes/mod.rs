@@ -1,7 +1,9 @@
 //! The passes of a frame, in the order of their names here; each is one file beside its WGSL.
 
+mod anisotropy;
 mod composite;
 mod curvature;
+mod neighbours;
 mod normals;
 mod shade;
 mod smooth;
@@ -9,7 +11,9 @@ mod splat;
 mod thickness;
 mod tiles;
 mod upsample;
+mod visible;
 
+pub(crate) use anisotropy::Ellipsoids;
 pub(crate) use composite::Composite;
 pub(crate) use curvature::Curvature;
 pub(crate) use normals::Normals;
@@ -30,3 +34,8 @@ macro_rules! module {
     };
 }
 pub(crate) use module;
+
+/// `ball.wgsl`'s override.
+fn ellipsoids_constant(ellipsoids: bool) -> (&'static str, f64) {
+    ("ELLIPSOIDS", f64::from(u8::from(ellipsoids)))
+}

@@ -1,6 +1,7 @@
 //! Depth splat: `splat.wgsl`.
 
-use super::module;
+use super::visible::List;
+use super::{ellipsoids_constant, module};
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer};
 use crate::particles::Chunk;
 use crate::targets::Targets;
@@ -9,47 +10,100 @@ use crate::targets::Targets;
 const HEADER_WORDS: u64 = 2;
 
 pub(crate) struct Splat {
-    small: Kernel,
-    count: Kernel,
-    large: Kernel,
+    spheres: Kernels,
+    ellipsoids: Kernels,
     large_splats: GrowBuffer,
     large_groups: wgpu::Buffer,
 }
 
+/// The kernels for one kind of ball.
+struct Kernels {
+    small: Kernel,
+    count: Kernel,
+    large: Kernel,
+}
+
+impl Kernels {
+    fn new(
+        device: &wgpu::Device,
+        frame: &wgpu::BindGroupLayout,
+        module: &wgpu::ShaderModule,
+        ellipsoids: bool,
+    ) -> Self {
+        let [read, write] = [Slot::Read, Slot::Write];
+        let slots = [read, read, read, read, write, write, write, write];
+        let constants = [ellipsoids_constant(ellipsoids)];
+        let kernel = |entry, slots: &[Slot]| Kernel::with_constants(device, frame, module, entry, slots, &constants);
+        Self {
+            small: kernel("splat_small", &slots[..7]),
+            count: kernel("count_large", &slots),
+            large: kernel("splat_large", &slots[..7]),
+        }
+    }
+}
+
 impl Splat {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "splat", "../frame.wgsl", "../ball.wgsl", "splat.wgsl");
-        let slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write, Slot::Write];
-        let kernel = |entry, slots: &[Slot]| Kernel::new(device, frame, &module, entry, slots);
+        let module = module!(
+            device,
+            "splat",
+            "../frame.wgsl",
+            "shape.wgsl",
+            "../ball.wgsl",
+            "balls.wgsl",
+            "covered.wgsl",
+            "splat.wgsl"
+        );
         Self {
-            small: kernel("splat_small", &slots[..5]),
-            count: kernel("count_large", &slots),
-            large: kernel("splat_large", &slots[..5]),
+            spheres: Kernels::new(device, frame, &module, false),
+            ellipsoids: Kernels::new(device, frame, &module, true),
             large_splats: GrowBuffer::new("large splats"),
             large_groups: storage_buffer(device, "large groups", 12),
         }
     }
 
-    /// Writes the nearest fluid of every pixel into `targets.raw`.
-    pub fn encode(&mut self, recorder: &mut Recorder<'_>, particles: &[Chunk], targets: &Targets) {
+    /// Empties `targets.raw`.
+    pub fn clear(&self, recorder: &mut Recorder<'_>, targets: &Targets) {
         recorder.clear(&targets.raw);
         recorder.clear(&targets.covered);
-        let most = particles.iter().map(|chunk| chunk.count).max().unwrap_or(0);
-        let large = self.large_splats.reserve(recorder.device, 4 * (HEADER_WORDS + most)).clone();
-        for chunk in particles {
-            recorder.encoder.clear_buffer(&large, 0, Some(4 * HEADER_WORDS));
-            let resources = [
-                chunk.positions.as_entire_binding(),
-                chunk.densities.as_entire_binding(),
-                targets.raw.as_entire_binding(),
-                large.as_entire_binding(),
-                targets.covered.as_entire_binding(),
-                self.large_groups.as_entire_binding(),
-            ];
-            let name = "splat-depth";
-            recorder.run(name, &self.small, &resources[..5], &Grid::Items(chunk.count, 64));
-            recorder.run(name, &self.count, &resources, &Grid::Items(1, 1));
-            recorder.run(name, &self.large, &resources[..5], &Grid::Indirect(&self.large_groups));
-        }
+    }
+
+    /// Adds a chunk of spheres to the nearest fluid of every pixel in `targets.raw`.
+    pub fn spheres(&mut self, recorder: &mut Recorder<'_>, chunk: &Chunk, targets: &Targets) {
+        // There is no list: all are drawn.
+        self.encode(recorder, chunk, &chunk.positions, &Grid::Items(chunk.count, 64), targets);
+    }
+
+    /// Adds those of a chunk of ellipsoids that are listed.
+    pub fn ellipsoids(&mut self, recorder: &mut Recorder<'_>, chunk: &Chunk, list: &List, targets: &Targets) {
+        self.encode(recorder, chunk, &list.items, &Grid::Indirect(&list.groups), targets);
+    }
+
+    fn encode(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        chunk: &Chunk,
+        list: &wgpu::Buffer,
+        grid: &Grid<'_>,
+        targets: &Targets,
+    ) {
+        let large = self.large_splats.reserve(recorder.device, 4 * (HEADER_WORDS + chunk.count));
+        recorder.encoder.clear_buffer(large, 0, Some(4 * HEADER_WORDS));
+        let kernels = if chunk.shapes.is_some() { &self.ellipsoids } else { &self.spheres };
+        let [positions, densities, shapes] = chunk.bindings();
+        let resources = [
+            positions,
+            densities,
+            shapes,
+            list.as_entire_binding(),
+            targets.raw.as_entire_binding(),
+            large.as_entire_binding(),
+            targets.covered.as_entire_binding(),
+            self.large_groups.as_entire_binding(),
+        ];
+        let name = "splat-depth";
+        recorder.run(name, &kernels.small, &resources[..7], grid);
+        recorder.run(name, &kernels.count, &resources, &Grid::Items(1, 1));
+        recorder.run(name, &kernels.large, &resources[..7], &Grid::Indirect(&self.large_groups));
     }
 }

@@ -1,10 +1,11 @@
 // Depth splat: the nearest entry of every pixel's ray into any ball, by a checked atomicMax on the bits of its nearness.
 // Small splats take one lane each; large ones are listed and get a workgroup each, block by block of the picture.
 
-@group(1) @binding(2) var<storage, read_write> nearness: array<atomic<u32>>;
-@group(1) @binding(3) var<storage, read_write> large: LargeSplats;
-@group(1) @binding(4) var<storage, read_write> covered: array<atomic<u32>>; // per block: nearness bits that all its pixels reach
-@group(1) @binding(5) var<storage, read_write> large_groups: vec3u; // indirect dispatch of splat_large
+@group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the ellipsoids to draw; spheres: all, unused
+@group(1) @binding(4) var<storage, read_write> nearness: array<atomic<u32>>;
+@group(1) @binding(5) var<storage, read_write> large: LargeSplats;
+@group(1) @binding(6) var<storage, read_write> covered: array<atomic<u32>>; // covered.wgsl
+@group(1) @binding(7) var<storage, read_write> large_groups: vec3u; // indirect dispatch of splat_large
 
 struct LargeSplats {
     count: atomic<u32>,
@@ -32,9 +33,9 @@ fn splat_pixel(ball: Ball, pixel: vec2i) -> bool {
 fn splat_speck(ball: Ball) {
     let depth = -ball.center.z;
     let px = (ball.center.xy / select(1.0, depth, is_perspective()) - view.px_zero) / view.px_step;
-    if depth - ball.radius > view.near && all(px >= vec2f(0.0)) && all(px < vec2f(view.size)) {
+    if depth - ball.reach > view.near && all(px >= vec2f(0.0)) && all(px < vec2f(view.size)) {
         let pixel = vec2u(px);
-        atomicMax(&nearness[pixel.y * view.size.x + pixel.x], bitcast<u32>(nearness_of(depth - ball.radius)));
+        atomicMax(&nearness[pixel.y * view.size.x + pixel.x], bitcast<u32>(nearness_of(depth - ball.reach)));
     }
 }
 
@@ -44,15 +45,25 @@ fn splat_small(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = item_index(group, groups, lane, 64u);
-    if index >= arrayLength(&particles) {
+    let item = item_index(group, groups, lane, 64u);
+    if item >= select(arrayLength(&particles), list[0], ELLIPSOIDS) {
         return;
     }
+    var index = item;
+    if ELLIPSOIDS {
+        index = list[1u + item];
+    }
     let ball = ball_of(index);
-    if !ball.drawn {
+    if !is_drawn(ball) {
         return;
     }
     let box = texel_box(ball, 1.0, view.size);
+    if ELLIPSOIDS {
+        // A ball that covers no pixel may still be a speck.
+        if all(box.max >= box.min) && !can_show(ball, box) {
+            return;
+        }
+    }
     let extent = max(box.max - box.min + 1, vec2i(0));
     if extent.x * extent.y > LARGE_PX {
         large.indices[atomicAdd(&large.count, 1u)] = index;
@@ -103,7 +114,7 @@ fn splat_large(
     }
     let ball = ball_of(large.indices[item]);
     let box = texel_box(ball, 1.0, view.size);
-    let nearest = bitcast<u32>(nearness_of(max(-ball.center.z - ball.radius, view.near)));
+    let nearest = bitcast<u32>(nearness_of(max(-ball.center.z - ball.reach, view.near)));
     let nearest_possible = bitcast<u32>(nearness_of(view.near));
     let first = box.min / BLOCK;
     let last = box.max / BLOCK;

@@ -1,6 +1,6 @@
 //! Thickness: `thickness.wgsl`, `thickness_collapse.wgsl` and `thickness_blur.wgsl`.
 
-use super::module;
+use super::{ellipsoids_constant, module};
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::particles::Chunk;
 use crate::targets::{Targets, ThicknessImages};
@@ -18,7 +18,8 @@ pub(crate) fn pyramid_texels(size: [u32; 2]) -> u64 {
 }
 
 pub(crate) struct Thickness {
-    splat: Kernel,
+    spheres: Kernel,
+    ellipsoids: Kernel,
     collapse: Kernel,
     blur_x: Kernel,
     blur_y: Kernel,
@@ -30,7 +31,9 @@ impl Thickness {
             device,
             "thickness",
             "../frame.wgsl",
+            "shape.wgsl",
             "../ball.wgsl",
+            "balls.wgsl",
             "thickness_levels.wgsl",
             "../scene_depth.wgsl",
             "thickness.wgsl"
@@ -39,14 +42,14 @@ impl Thickness {
             module!(device, "thickness collapse", "../frame.wgsl", "thickness_levels.wgsl", "thickness_collapse.wgsl");
         let blur = module!(device, "thickness blur", "../frame.wgsl", "thickness_blur.wgsl");
         let images = [Slot::Read, Slot::Read, Slot::Write];
+        let splat_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Depth];
+        let splat = |ellipsoids| {
+            let constants = [ellipsoids_constant(ellipsoids)];
+            Kernel::with_constants(device, frame, &splat, "splat", &splat_slots, &constants)
+        };
         Self {
-            splat: Kernel::new(
-                device,
-                frame,
-                &splat,
-                "splat",
-                &[Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Depth],
-            ),
+            spheres: splat(false),
+            ellipsoids: splat(true),
             collapse: Kernel::new(device, frame, &collapse, "collapse", &images),
             blur_x: Kernel::new(device, frame, &blur, "blur_x", &images),
             blur_y: Kernel::new(device, frame, &blur, "blur_y", &images),
@@ -65,14 +68,17 @@ impl Thickness {
         recorder.clear(&thickness.sums);
         recorder.clear(&thickness.levels_used);
         for chunk in particles {
+            let kernel = if chunk.shapes.is_some() { &self.ellipsoids } else { &self.spheres };
+            let [positions, densities, shapes] = chunk.bindings();
             let resources = [
-                chunk.positions.as_entire_binding(),
-                chunk.densities.as_entire_binding(),
+                positions,
+                densities,
+                shapes,
                 thickness.sums.as_entire_binding(),
                 thickness.levels_used.as_entire_binding(),
                 wgpu::BindingResource::TextureView(scene_depth),
             ];
-            recorder.run(name, &self.splat, &resources, &Grid::Items(chunk.count, 64));
+            recorder.run(name, kernel, &resources, &Grid::Items(chunk.count, 64));
         }
         let resources = [
             thickness.sums.as_entire_binding(),

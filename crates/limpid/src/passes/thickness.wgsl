@@ -4,9 +4,9 @@
 // Sums are fixed-point, so that their order does not matter. A splat goes to the level of an image pyramid in which it is
 // at most MAX_TEXELS wide: the cost of a particle is bounded however near it is, and a chord is smooth at that sampling.
 
-@group(1) @binding(2) var<storage, read_write> sums: array<atomic<u32>>;
-@group(1) @binding(3) var<storage, read_write> levels_used: atomic<u32>; // bit l: level l holds something
-@group(1) @binding(4) var scene_depth: texture_depth_2d;
+@group(1) @binding(3) var<storage, read_write> sums: array<atomic<u32>>;
+@group(1) @binding(4) var<storage, read_write> levels_used: atomic<u32>; // bit l: level l holds something
+@group(1) @binding(5) var scene_depth: texture_depth_2d;
 
 const MAX_TEXELS: f32 = 20.0;
 // Sums stop growing here, far below overflow, and read as this: half a million r of liquid.
@@ -23,7 +23,7 @@ fn splat(
         return;
     }
     let ball = ball_of(index);
-    if !ball.drawn {
+    if !is_drawn(ball) {
         return;
     }
     var box = texel_box(ball, settings.thickness_divisor, settings.thickness_size);
