@@ -3,8 +3,8 @@
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Curvature, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
-    level_count,
+    Composite, Curvature, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles,
+    Upsample, level_count,
 };
 use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};

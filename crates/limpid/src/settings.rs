@@ -75,7 +75,14 @@ pub struct Anisotropy {
 
 impl Default for Anisotropy {
     fn default() -> Self {
-        Self { enabled: false, kappa: 4.0, support: 5.4, min_neighbours: 22.0, center_smoothing: 1.0, skip_hidden: true }
+        Self {
+            enabled: false,
+            kappa: 4.0,
+            support: 5.4,
+            min_neighbours: 22.0,
+            center_smoothing: 1.0,
+            skip_hidden: true,
+        }
     }
 }
 
@@ -168,7 +175,7 @@ impl Default for Smoothing {
 impl Smoothing {
     /// Share of a filter's default strength that makes ellipsoids ([`Anisotropy`]) about as smooth as all of it makes
     /// spheres.
-    pub const ELLIPSOIDS_SHARE: f32 = 0.52;
+    pub const ELLIPSOIDS_SHARE: f32 = 0.48;
 
     /// The defaults of one filter, chosen by docs/quality.md's figures. Narrow-range goes twice over the picture: once
     /// leaves streaks along the axes where a sheet is thin.
