@@ -54,7 +54,7 @@ pub struct Anisotropy {
     pub enabled: bool,
     /// Largest ratio of a ball's longest axis to its shortest, 1 to 16, default 4 (Xu et al. 2022, section 4.2).
     pub kappa: f32,
-    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.4: a particle at rest has
+    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.3: a particle at rest has
     /// about 70 there. Wider is smoother, but the surface then lags behind what moves. A particle of more than twice the
     /// median radius looks no farther than one of twice the median.
     pub support: f32,
@@ -71,7 +71,7 @@ pub struct Anisotropy {
 
 impl Default for Anisotropy {
     fn default() -> Self {
-        Self { enabled: true, kappa: 4.0, support: 5.4, min_neighbours: 22.0, center_smoothing: 1.0, skip_hidden: true }
+        Self { enabled: true, kappa: 4.0, support: 5.3, min_neighbours: 22.0, center_smoothing: 1.0, skip_hidden: true }
     }
 }
 
@@ -118,7 +118,7 @@ pub struct Smoothing {
     /// Which filter.
     pub filter: Filter,
     /// Smoothing length in r, 0 to 20: the standard deviation of the filter's Gaussian over the surface, the same
-    /// meaning for every filter. Default 0.82, which suits ellipsoids; [`Smoothing::SPHERES_STRENGTH`] suits spheres.
+    /// meaning for every filter. Default 0.83, which suits ellipsoids; [`Smoothing::SPHERES_STRENGTH`] suits spheres.
     pub strength: f32,
     /// How often the filter is applied, 1 to 100, default 1.
     pub iterations: u32,
@@ -142,7 +142,7 @@ impl Smoothing {
 
     /// The defaults of one filter.
     pub const fn of(filter: Filter) -> Self {
-        Self { filter, strength: 0.82, iterations: 1, max_radius_px: 100, range: 10.0, clamp: 1.0 }
+        Self { filter, strength: 0.83, iterations: 1, max_radius_px: 100, range: 10.0, clamp: 1.0 }
     }
 }
 
