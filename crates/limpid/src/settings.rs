@@ -58,7 +58,7 @@ pub struct Anisotropy {
     pub enabled: bool,
     /// Largest ratio of a ball's longest axis to its shortest, 1 to 16, default 4 (Xu et al. 2022, section 4.2).
     pub kappa: f32,
-    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.4: a particle at rest has
+    /// Neighbours are particles within this many of a particle's own radius, 2 to 12, default 5.3: a particle at rest has
     /// about 70 there. Wider is smoother, but the surface then lags behind what moves. A particle of more than twice the
     /// median radius looks no farther than one of twice the median.
     pub support: f32,
@@ -78,7 +78,7 @@ impl Default for Anisotropy {
         Self {
             enabled: false,
             kappa: 4.0,
-            support: 5.4,
+            support: 5.3,
             min_neighbours: 22.0,
             center_smoothing: 1.0,
             skip_hidden: true,

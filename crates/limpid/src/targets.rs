@@ -7,6 +7,8 @@ use crate::{Error, Scale, Settings};
 /// `frame.wgsl`'s `BLOCK`.
 const BLOCK_PX: u32 = 32;
 const TILE_PX: u32 = 8;
+/// `covered.wgsl`'s `TILE`.
+const COVERED_TILE_PX: u32 = 4;
 
 /// Bytes per pixel of the largest image, `surface` or `shaded`.
 const LARGEST_PIXEL: u64 = 16;
@@ -105,7 +107,7 @@ impl Targets {
             size,
             thickness_scale,
             raw: image("raw nearness", 4 * pixels),
-            covered: image("covered blocks", 4 * (cells(size, BLOCK_PX) + cells(size, TILE_PX))),
+            covered: image("covered blocks", 4 * (cells(size, BLOCK_PX) + cells(size, COVERED_TILE_PX))),
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
@@ -127,6 +129,11 @@ impl Targets {
         self.picture_size == picture_size
             && self.filter_scale == settings.filter_scale
             && self.thickness_scale == settings.thickness_scale
+    }
+
+    /// Tiles of `covered.wgsl`.
+    pub fn covered_tile_count(&self) -> u64 {
+        cells(self.size, COVERED_TILE_PX)
     }
 
     /// Tiles that cover the fluid's images.

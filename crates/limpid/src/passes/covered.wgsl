@@ -1,7 +1,7 @@
 // What of the picture is full of fluid nearer than some depth, for passes with a binding `covered`, an array of atomics: for
 // each block, then for each tile, nearness bits that all its pixels reach. Nothing behind those can show there.
 
-const TILE: i32 = 8; // pixels along it
+const TILE: i32 = 4; // pixels along it
 
 fn tile_counts() -> vec2i {
     return (vec2i(view.size) + TILE - 1) / TILE;

@@ -6,7 +6,7 @@ use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer};
 use crate::targets::Targets;
 
 /// `visible.wgsl`'s `LEVELS`.
-const LEVELS: u64 = 6;
+const LEVELS: u64 = 7;
 
 pub(crate) struct Visible {
     find_fronts: Kernel,
@@ -65,7 +65,7 @@ impl Visible {
         stage: Stage,
     ) -> List {
         let device = recorder.device;
-        let tiles = targets.tile_count();
+        let tiles = targets.covered_tile_count();
         let fronts = self.fronts.reserve(device, 4 * LEVELS * tiles);
         let items = self.items.reserve(device, 4 * (1 + sorted.count));
         let resources = [

@@ -16,7 +16,7 @@ struct List {
     items: array<u32>, // order varies, results do not
 }
 
-const LEVELS: u32 = 6u; // of `fronts`, each of tiles twice as wide
+const LEVELS: u32 = 7u; // of `fronts`, each of tiles twice as wide
 const FRONT: f32 = 2.0; // r behind the nearest centre that the first stage draws
 
 struct Center {
