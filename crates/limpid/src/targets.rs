@@ -1,7 +1,7 @@
 //! The images of one frame, made anew when its size changes.
 
 use crate::gpu::storage_buffer;
-use crate::passes::{pieces_bytes, pyramid_texels};
+use crate::passes::{pyramid_texels, segments_bytes};
 use crate::{Error, Scale, Settings};
 
 /// `frame.wgsl`'s `BLOCK`.
@@ -30,8 +30,8 @@ pub(crate) struct Targets {
     pub occupied: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
-    /// Pieces of the lines that curvature flow solves.
-    pub pieces: wgpu::Buffer,
+    /// What curvature flow solves: rows, and columns.
+    pub segments: [Segments; 2],
     pub thickness: ThicknessImages,
     /// vec4: view-space normal, thickness in world units.
     pub surface: wgpu::Buffer,
@@ -39,6 +39,21 @@ pub(crate) struct Targets {
     pub shaded: wgpu::Buffer,
     /// The same at the picture's resolution, where that is another.
     pub picture: Option<PictureImages>,
+}
+
+/// Segments of all lines along one axis.
+pub(crate) struct Segments {
+    /// Indirect dispatch, count and places of those that hold fluid.
+    pub list: wgpu::Buffer,
+    /// How the ends of each depend on its neighbours.
+    pub pieces: wgpu::Buffer,
+}
+
+impl Segments {
+    fn new(device: &wgpu::Device, lines: u32, length: u32) -> Self {
+        let [list, pieces] = segments_bytes(lines, length);
+        Self { list: storage_buffer(device, "segments", list), pieces: storage_buffer(device, "pieces", pieces) }
+    }
 }
 
 /// Thickness of one view.
@@ -111,7 +126,7 @@ impl Targets {
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
-            pieces: image("pieces", pieces_bytes(size)),
+            segments: [Segments::new(device, size[1], size[0]), Segments::new(device, size[0], size[1])],
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size)),
             surface: image("surface", 16 * pixels),
             shaded: image("shaded", 16 * pixels),

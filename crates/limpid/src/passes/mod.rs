@@ -18,7 +18,7 @@ pub(crate) use composite::Composite;
 pub(crate) use curvature::Curvature;
 pub(crate) use normals::Normals;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
-pub(crate) use smooth::{Smooth, pieces_bytes};
+pub(crate) use smooth::{Smooth, segments_bytes};
 pub(crate) use splat::Splat;
 pub(crate) use thickness::{Thickness, level_count, pyramid_texels};
 pub(crate) use tiles::Tiles;

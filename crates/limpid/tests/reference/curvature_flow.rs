@@ -32,18 +32,25 @@ struct Flow {
 }
 
 impl Flow {
-    fn conductance(&self, image: &Nearness<'_>, at: [i64; 2], axis: [i64; 2]) -> f64 {
-        let linked = image.linked(at, moved(at, axis, 1), self.step);
-        if linked { 1.0 / image.normal_between(at, axis, self.step).length() } else { 0.0 }
+    /// k of the flux k (b - a) between a pixel and the next, and 0.6 times the mean of k and of the flux's derivative.
+    fn link(&self, image: &Nearness<'_>, at: [i64; 2], axis: [i64; 2]) -> [f64; 2] {
+        if !image.linked(at, moved(at, axis, 1), self.step) {
+            return [0.0; 2];
+        }
+        let normal = image.normal_between(at, axis, self.step);
+        let along = image.normal_along(at, axis);
+        let lag = (normal.dot(along) / normal.length_squared()).clamp(0.0, 1.0);
+        let k = 1.0 / normal.length();
+        [k, 0.6 * (1.0 - 0.5 * lag) * k]
     }
 
-    /// Conductances toward the pixels before and after one along an axis, and the flux difference between them.
+    /// The implicit side's links toward the pixels before and after one along an axis, and the flux difference between them.
     fn around(&self, image: &Nearness<'_>, at: [i64; 2], axis: [i64; 2]) -> ([f64; 2], f64) {
-        let behind = self.conductance(image, moved(at, axis, -1), axis);
-        let ahead = self.conductance(image, at, axis);
+        let [k_behind, behind] = self.link(image, moved(at, axis, -1), axis);
+        let [k_ahead, ahead] = self.link(image, at, axis);
         let center = image.at(at);
-        let flux_ahead = ahead * (image.at(moved(at, axis, 1)) - center);
-        let flux_behind = behind * (center - image.at(moved(at, axis, -1)));
+        let flux_ahead = k_ahead * (image.at(moved(at, axis, 1)) - center);
+        let flux_behind = k_behind * (center - image.at(moved(at, axis, -1)));
         ([behind, ahead], flux_ahead - flux_behind)
     }
 
@@ -83,8 +90,8 @@ impl Flow {
             let place = |i: i64| if axis == 0 { [i, line] } else { [line, i] };
             let row = |i: i64| {
                 let mobility = self.mobility(image, image.at(place(i)))[axis];
-                let (conductances, flux) = self.around(image, place(i), AXES[axis]);
-                let [behind, ahead] = conductances.map(|conductance| 0.6 * mobility * conductance);
+                let (links, flux) = self.around(image, place(i), AXES[axis]);
+                let [behind, ahead] = links.map(|link| mobility * link);
                 [-behind, 1.0 + behind + ahead, -ahead, mobility * flux]
             };
             for (i, change) in (0..).zip(tridiagonal((0..length).map(row))) {

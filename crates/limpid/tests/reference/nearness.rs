@@ -80,9 +80,22 @@ impl<'a> Nearness<'a> {
         if !self.camera.view.is_perspective() {
             return (slope * self.camera.view.far).extend(1.0);
         }
-        let middle = DVec2::new(at[0] as f64, at[1] as f64) + 0.5 + 0.5 * DVec2::new(axis[0] as f64, axis[1] as f64);
-        slope.extend(0.5 * (self.at(at) + self.at(next)) - self.ray(middle).dot(slope))
+        slope.extend(0.5 * (self.at(at) + self.at(next)) - self.ray(half_way(at, axis)).dot(slope))
     }
+
+    /// The part of `normal_between` that is proportional to the difference along the axis.
+    pub fn normal_along(&self, at: [i64; 2], axis: [i64; 2]) -> DVec3 {
+        let along = self.at(moved(at, axis, 1)) - self.at(at);
+        let slope = along * DVec2::new(axis[0] as f64, axis[1] as f64) / self.px_step();
+        if !self.camera.view.is_perspective() {
+            return (slope * self.camera.view.far).extend(0.0);
+        }
+        slope.extend(-self.ray(half_way(at, axis)).dot(slope))
+    }
+}
+
+fn half_way(at: [i64; 2], axis: [i64; 2]) -> DVec2 {
+    DVec2::new(at[0] as f64, at[1] as f64) + 0.5 + 0.5 * DVec2::new(axis[0] as f64, axis[1] as f64)
 }
 
 pub fn moved(at: [i64; 2], axis: [i64; 2], by: i64) -> [i64; 2] {

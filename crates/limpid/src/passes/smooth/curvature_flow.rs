@@ -1,20 +1,56 @@
 //! Curvature flow: `curvature_flow.wgsl` (semi-implicit) and `curvature_flow_explicit.wgsl`, both after `flow.wgsl`.
 
-use super::{LINE_SLOTS, PIXEL_SLOTS, Step, Work};
-use crate::gpu::Kernel;
+use super::{PIXEL_SLOTS, Step, Work};
+use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::passes::module;
 use crate::settings::CurvatureFlow as Form;
+use crate::targets::{Segments, Targets};
 
 pub(super) struct CurvatureFlow {
-    rows: [Kernel; 3],
-    columns: [Kernel; 3],
+    rows: Axis,
+    columns: Axis,
+    count_segments: Kernel,
     explicit: Kernel,
+}
+
+/// The semi-implicit form along one axis.
+pub(super) struct Axis {
+    list_segments: Kernel,
+    /// Eliminates, then substitutes.
+    solve: [Kernel; 2],
+    segments: fn(&Targets) -> &Segments,
+}
+
+/// Bindings of the list: occupied tiles, the list, the pieces.
+const LIST_SLOTS: [Slot; 3] = [Slot::Read, Slot::Write, Slot::Write];
+/// Bindings of a solve: occupied tiles, the list, input, output, 4 bytes of scratch for each pixel, the pieces.
+const SOLVE_SLOTS: [Slot; 6] = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write];
+
+/// `segments.wgsl`'s `LINES`.
+const LINES: u32 = 8;
+/// `segments.wgsl`'s `SEGMENT`.
+const SEGMENT: u32 = 32;
+/// Bytes of `segments.wgsl`'s `Piece`.
+const PIECE: u64 = 32;
+
+/// Bytes of the list and of the pieces of lines of `length` pixels.
+pub(crate) fn segments_bytes(lines: u32, length: u32) -> [u64; 2] {
+    let along = u64::from(length.div_ceil(SEGMENT));
+    [16 + 4 * along * u64::from(lines.div_ceil(LINES)), PIECE * along * u64::from(lines)]
 }
 
 impl CurvatureFlow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let implicit =
-            module!(device, "curvature flow", "../../frame.wgsl", "../sheet.wgsl", "flow.wgsl", "curvature_flow.wgsl");
+        let list = module!(device, "segments", "../../frame.wgsl", "segments.wgsl", "list_segments.wgsl");
+        let implicit = module!(
+            device,
+            "curvature flow",
+            "../../frame.wgsl",
+            "../sheet.wgsl",
+            "flow.wgsl",
+            "segments.wgsl",
+            "curvature_flow.wgsl"
+        );
         let explicit = module!(
             device,
             "explicit curvature flow",
@@ -24,22 +60,64 @@ impl CurvatureFlow {
             "flow.wgsl",
             "curvature_flow_explicit.wgsl"
         );
-        let line = |entry| Kernel::new(device, frame, &implicit, entry, &LINE_SLOTS);
+        let list = |entry| Kernel::new(device, frame, &list, entry, &LIST_SLOTS);
+        let solve = |entry| Kernel::new(device, frame, &implicit, entry, &SOLVE_SLOTS);
         Self {
-            rows: ["eliminate_rows", "solve_ends_of_rows", "substitute_rows"].map(line),
-            columns: ["eliminate_columns", "solve_ends_of_columns", "substitute_columns"].map(line),
+            rows: Axis {
+                list_segments: list("list_segments_of_rows"),
+                solve: ["eliminate_rows", "substitute_rows"].map(solve),
+                segments: |targets| &targets.segments[0],
+            },
+            columns: Axis {
+                list_segments: list("list_segments_of_columns"),
+                solve: ["eliminate_columns", "substitute_columns"].map(solve),
+                segments: |targets| &targets.segments[1],
+            },
+            count_segments: list("count_segments"),
             explicit: Kernel::new(device, frame, &explicit, "curvature_flow_explicit", &PIXEL_SLOTS),
         }
     }
 
     pub fn steps(&self, iterations: u32, form: Form) -> Vec<Step<'_>> {
         let iterations = iterations as usize;
-        let rows = ("curvature-flow-rows", Work::Rows(&self.rows));
-        let columns = ("curvature-flow-columns", Work::Columns(&self.columns));
+        let rows = ("curvature-flow-rows", Work::Lines(&self.rows));
+        let columns = ("curvature-flow-columns", Work::Lines(&self.columns));
         match form {
             Form::Explicit => [("curvature-flow-explicit", Work::Pixels(&self.explicit))].repeat(iterations),
             // The axes take turns at going first, which cancels what the first gets wrong.
             Form::Implicit => [rows, columns, columns, rows].into_iter().cycle().take(2 * iterations).collect(),
+        }
+    }
+
+    /// Lists the segments of one frame for the semi-implicit form.
+    pub fn list_segments(&self, recorder: &mut Recorder<'_>, targets: &Targets) {
+        for axis in [&self.rows, &self.columns] {
+            let Segments { list, pieces } = (axis.segments)(targets);
+            recorder.encoder.clear_buffer(list, 0, Some(16));
+            let resources = [&targets.occupied, list, pieces].map(wgpu::Buffer::as_entire_binding);
+            let most = (list.size() - 16) / 4;
+            let name = "smooth/curvature-flow-segments";
+            recorder.run(name, &axis.list_segments, &resources, &Grid::Items(most, 64));
+            recorder.run(name, &self.count_segments, &resources, &Grid::Items(1, 1));
+        }
+    }
+}
+
+impl Axis {
+    pub fn run(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &str,
+        input: &wgpu::Buffer,
+        output: &wgpu::Buffer,
+        targets: &Targets,
+    ) {
+        let Segments { list, pieces } = (self.segments)(targets);
+        // The surface is scratch: it is written only after the filter.
+        let buffers = [&targets.occupied, list, input, output, &targets.surface, pieces];
+        let resources = buffers.map(wgpu::Buffer::as_entire_binding);
+        for kernel in &self.solve {
+            recorder.run(name, kernel, &resources, &Grid::Indirect(list));
         }
     }
 }

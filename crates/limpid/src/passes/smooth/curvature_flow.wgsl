@@ -1,43 +1,40 @@
 // Curvature flow by semi-implicit steps, stable at any length: with L frozen, the flow along each line of pixels is one
 // tridiagonal system, solved along x and y in turn. For the change d of the pixels on a line,
 //
-//     d_i - IMPLICIT m_i [k_i+ (d_i+1 - d_i) - k_i- (d_i - d_i-1)] = m_i [k_i+ (u_i+1 - u_i) - k_i- (u_i - u_i-1)]
+//     d_i - m_i [j_i+ (d_i+1 - d_i) - j_i- (d_i - d_i-1)] = m_i [k_i+ (u_i+1 - u_i) - k_i- (u_i - u_i-1)]
 //
-// with k = 1 / L half-way between pixels. Background, silhouettes and the picture's edge have k = 0, so the runs between
-// them fall apart by themselves.
+// with k = 1 / L half-way between pixels and j as `Link` says. Background, silhouettes and the picture's edge have k = 0,
+// so the runs between them fall apart by themselves.
 //
-// Lines are cut into CHUNKS pieces, one lane a piece; 8 lanes side by side walk 8 neighbouring lines, a row or column of
-// tiles. Three kernels, since barriers cost CPUs more than dispatches:
-//   1. `eliminate` goes forward through each piece: d_i = constant + previous d_P + next d_i+1, where d_P is the last
-//      pixel before the piece, and likewise keeps its first pixel in terms of d_P and the first pixel after the piece;
-//   2. `solve_ends` solves for the ends of all pieces of a line;
-//   3. `substitute` goes backward through each piece.
+// Lines are cut into segments of SEGMENT pixels, and those that hold fluid are listed once a frame (`list_segments.wgsl`), 8
+// lines side by side at a time. One lane takes one line of one segment. Two kernels, since barriers cost CPUs more than
+// dispatches:
+//   1. `eliminate` goes forward through each segment: d_i = constant + previous d_P + next d_i+1, where d_P is the last
+//      pixel before the segment, and keeps its ends in terms of d_P and the first pixel after it (`Piece`);
+//   2. `substitute` solves for these two, and goes backward.
 
 @group(1) @binding(0) var<storage, read> occupied: array<u32>; // for each tile, in rows
-@group(1) @binding(1) var<storage, read> input: array<f32>;
-@group(1) @binding(2) var<storage, read_write> output: array<f32>; // eliminated constants, then the result
-@group(1) @binding(3) var<storage, read_write> factors: array<vec2f>; // Relation's previous and next
-@group(1) @binding(4) var<storage, read_write> pieces: array<Piece>; // of all lines, chunk by chunk
+@group(1) @binding(1) var<storage, read> segments: Segments;
+@group(1) @binding(2) var<storage, read> input: array<f32>;
+@group(1) @binding(3) var<storage, read_write> output: array<f32>; // eliminated constants, then the result
+@group(1) @binding(4) var<storage, read_write> factors: array<u32>; // a relation's previous and next, 16 bits each
+@group(1) @binding(5) var<storage, read_write> pieces: array<Piece>; // of all segments, see `piece_slot`
 
-const TILE: u32 = 8u;
-const LINES: u32 = 8u;
-const CHUNKS: u32 = 32u;
+struct Segments {
+    groups: vec3u,
+    count: u32,
+    places: array<u32>, // segment along the line | line / LINES << 16
+}
 
 // How implicit a step is: at 1/2 it would be most accurate, at 1 it damps bumps of single pixels best.
 const IMPLICIT: f32 = 0.6;
 
-// The change of a pixel: constant + previous * (that of the last pixel before the piece) + next * (that of a later one).
-struct Relation {
-    constant: f32,
-    previous: f32,
-    next: f32,
-}
+// How far the implicit side follows the flux's tangent instead of k: at 1 steep slopes, where L grows with the slope, would
+// be hardly implicit at all and single pixels swing; at 0 they lag behind, which takes twice as many steps to make up for.
+const TANGENT: f32 = 0.5;
 
-struct Piece {
-    first: Relation,
-    last: Relation,
-}
-
+// Below this a change farther along the line no longer matters.
+const FORGOTTEN: f32 = 1e-6;
 
 fn nearness_at(at: vec2i) -> f32 {
     if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
@@ -51,22 +48,54 @@ fn pixel_index(at: vec2i) -> u32 {
 }
 
 // A pixel's relation to the next, given the one of the pixel before.
-fn follow(before: Relation, behind: f32, ahead: f32, constant: f32) -> Relation {
-    let scale = 1.0 / (1.0 + ahead + behind * (1.0 - before.next));
-    return Relation(
-        (constant + behind * before.constant) * scale,
-        behind * before.previous * scale,
-        ahead * scale,
+fn follow(before: vec3f, behind: f32, ahead: f32, constant: f32) -> vec3f {
+    let scale = 1.0 / (1.0 + ahead + behind * (1.0 - before.z));
+    return vec3f(constant + behind * before.x, behind * before.y, ahead) * scale;
+}
+
+// Two pieces, one after the other, as one.
+fn join(a: Piece, b: Piece) -> Piece {
+    let scale = 1.0 / (1.0 - a.last.z * b.first.y);
+    let last_of_a = vec3f(a.last.x + a.last.z * b.first.x, a.last.y, a.last.z * b.first.z) * scale;
+    let first_of_b = vec3f(b.first.x, 0.0, b.first.z) + b.first.y * last_of_a;
+    return Piece(
+        vec3f(a.first.xy, 0.0) + a.first.z * first_of_b,
+        vec3f(b.last.x, 0.0, b.last.z) + b.last.y * last_of_a,
     );
 }
 
-// A lane's share of a line: whole tiles, in pixels along it.
+// Between two pixels: the flux is k (b - a), and j is IMPLICIT times a mean of k and of the flux's derivative by b - a.
+struct Link {
+    k: f32,
+    j: f32,
+}
+
+fn link(at: vec2i, axis: vec2i, a: LinePixel, b: LinePixel, step: f32) -> Link {
+    let normal = normal_between(at, axis, a, b);
+    let along = normal_along(at, axis, b.nearness - a.nearness);
+    let squared = max(dot(normal, normal), 1e-30);
+    let k = select(0.0, inverseSqrt(squared), is_sheet(a.nearness, b.nearness, step));
+    let lag = clamp(dot(normal, along) / squared, 0.0, 1.0);
+    return Link(k, IMPLICIT * (1.0 - TANGENT * lag) * k);
+}
+
+// The part of `normal_between` that is proportional to the difference along the axis.
+fn normal_along(at: vec2i, axis: vec2i, difference: f32) -> vec3f {
+    let slope = difference * vec2f(axis) / view.px_step;
+    if is_perspective() {
+        let ray = view.px_zero + (vec2f(at) + 0.5 + 0.5 * vec2f(axis)) * view.px_step;
+        return vec3f(slope, -dot(ray, slope));
+    }
+    return vec3f(slope * view.far, 0.0);
+}
+
+// A lane's line of a segment, in pixels along it.
 struct Share {
     origin: vec2i, // the line's first pixel
     axis: vec2i,
     begin: i32,
     end: i32,
-    slot: u32, // of its piece
+    place: vec2u, // of its piece: segment along the line, line
     inside: bool, // of the picture
 }
 
@@ -81,14 +110,14 @@ fn is_empty(share: Share, begin: i32) -> bool {
 fn eliminate(share: Share) -> Piece {
     let step = sheet_step();
     let axis = share.axis;
-    var relation = Relation(0.0, 1.0, 0.0);
-    var first = Relation(0.0, 0.0, 1.0);
+    var relation = vec3f(0.0, 1.0, 0.0);
+    var first = vec3f(0.0, 0.0, 1.0);
     var begin = share.begin;
     loop {
         // A loop, not a branch in the loop around it: CPUs run what a branch skips, masked.
         while is_empty(share, begin) {
-            relation = Relation(0.0, 0.0, 0.0);
-            first.next = 0.0;
+            relation = vec3f(0.0);
+            first.z = 0.0;
             begin += i32(TILE);
         }
         if begin >= share.end {
@@ -97,25 +126,23 @@ fn eliminate(share: Share) -> Piece {
         let start = share.origin + begin * axis;
         let before = line_pixel(start - axis, axis.yx, step);
         var here = line_pixel(start, axis.yx, step);
-        var flow_behind = conductance(start - axis, axis, before, here);
-        var flux_behind = flow_behind * (here.nearness - before.nearness);
+        var behind = link(start - axis, axis, before, here, step);
+        var flux_behind = behind.k * (here.nearness - before.nearness);
         let pixels = min(i32(TILE), share.end - begin);
         for (var i = 0; i < pixels; i++) {
             let at = start + i * axis;
             let index = pixel_index(at);
             let after = line_pixel(at + axis, axis.yx, step);
-            let flow_ahead = conductance(at, axis, here, after);
-            let flux_ahead = flow_ahead * (after.nearness - here.nearness);
+            let ahead = link(at, axis, here, after, step);
+            let flux_ahead = ahead.k * (after.nearness - here.nearness);
             let change = dot(mobility(here.nearness), vec2f(axis));
-            let weight = IMPLICIT * change;
-            relation = follow(relation, weight * flow_behind, weight * flow_ahead, change * (flux_ahead - flux_behind));
-            output[index] = relation.constant;
-            factors[index] = vec2f(relation.previous, relation.next);
-            first.constant += first.next * relation.constant;
-            first.previous += first.next * relation.previous;
-            first.next *= relation.next;
+            let flux = change * (flux_ahead - flux_behind);
+            relation = follow(relation, change * behind.j, change * ahead.j, flux);
+            output[index] = relation.x;
+            factors[index] = pack2x16unorm(relation.yz);
+            first = vec3f(first.xy, 0.0) + first.z * relation;
             here = after;
-            flow_behind = flow_ahead;
+            behind = ahead;
             flux_behind = flux_ahead;
         }
         begin += i32(TILE);
@@ -123,35 +150,40 @@ fn eliminate(share: Share) -> Piece {
     return Piece(first, relation);
 }
 
-// Step 2, for one line: leaves in each piece's first.previous and first.next the changes of the pixels before and after it.
-fn solve_ends(line: u32, lines: u32) {
-    // While going forward, the last pixel of the piece before is constant + slope * (first pixel of this piece).
-    var constant = 0.0;
-    var slope = 0.0;
-    for (var chunk = 0u; chunk < CHUNKS; chunk++) {
-        let slot = chunk * lines + line;
-        let piece = pieces[slot];
-        let scale = 1.0 / (1.0 - piece.first.previous * slope);
-        // This piece's first pixel in terms of the next piece's.
-        let first = Relation((piece.first.constant + piece.first.previous * constant) * scale, 0.0, piece.first.next * scale);
-        pieces[slot] = Piece(first, Relation(constant, 0.0, slope));
-        constant = piece.last.constant + piece.last.previous * (constant + slope * first.constant);
-        slope = piece.last.next + piece.last.previous * slope * first.next;
+fn piece_at(place: vec2u, axis: vec2i) -> Piece {
+    if place.x >= segments_along(axis) {
+        return Piece(vec3f(0.0), vec3f(0.0));
     }
-    var after = 0.0;
-    for (var back = 1u; back <= CHUNKS; back++) {
-        let slot = (CHUNKS - back) * lines + line;
-        let piece = pieces[slot];
-        let first = piece.first.constant + piece.first.next * after;
-        pieces[slot].first = Relation(0.0, piece.last.constant + piece.last.next * first, after);
-        after = first;
-    }
+    return pieces[piece_slot(place, axis)];
 }
 
-// Step 3.
+// The changes of the pixels before and after a share: its neighbours on both sides are joined for as long as what lies
+// beyond them matters.
+fn solve_ends(share: Share) -> vec2f {
+    let here = piece_at(share.place, share.axis);
+    var place = share.place - vec2u(1u, 0u); // of nothing, before the first
+    var before = piece_at(place, share.axis);
+    while before.last.y > FORGOTTEN {
+        place.x -= 1u;
+        before = join(piece_at(place, share.axis), before);
+    }
+    place = share.place + vec2u(1u, 0u);
+    var after = piece_at(place, share.axis);
+    while after.first.z > FORGOTTEN {
+        place.x += 1u;
+        after = join(after, piece_at(place, share.axis));
+    }
+    let first = join(here, after).first;
+    let previous = (before.last.x + before.last.z * first.x) / (1.0 - before.last.z * first.y);
+    let last = here.last.x + here.last.y * previous;
+    let next = (after.first.x + after.first.y * last) / (1.0 - after.first.y * here.last.z);
+    return vec2f(previous, next);
+}
+
+// Step 2.
 fn substitute(share: Share) {
-    let ends = pieces[share.slot].first;
-    var change = ends.next;
+    let ends = solve_ends(share);
+    var change = ends.y;
     var begin = (share.end - 1) / i32(TILE) * i32(TILE);
     loop {
         while is_empty(share, begin) {
@@ -162,36 +194,27 @@ fn substitute(share: Share) {
         }
         for (var i = min(begin + i32(TILE), share.end) - 1; i >= begin; i--) {
             let index = pixel_index(share.origin + i * share.axis);
-            let factor = factors[index];
-            change = output[index] + factor.x * ends.previous + factor.y * change;
+            change = output[index] + dot(unpack2x16unorm(factors[index]), vec2f(ends.x, change));
             output[index] = input[index] + change;
         }
         begin -= i32(TILE);
     }
 }
 
-const ROW: vec2i = vec2i(1, 0);
-const COLUMN: vec2i = vec2i(0, 1);
-
-fn lines_of(axis: vec2i) -> u32 {
-    return u32(dot(vec2i(view.size), axis.yx));
-}
-
-// The share of a lane of a group that takes LINES lines and as many pieces of each.
-fn share_of(group: u32, lane: vec2u, axis: vec2i) -> Share {
-    const GROUPS: u32 = CHUNKS / LINES; // for a line
-    let line = group / GROUPS * LINES + lane.x;
-    let chunk = group % GROUPS * LINES + lane.y;
-    let lines = lines_of(axis);
+// The share of a lane of a group that takes LINES lines of as many listed segments.
+fn share_of(group: vec3u, groups: vec3u, lane: vec2u, axis: vec2i) -> Share {
+    let item = item_index(group, groups, lane.y, LINES);
+    let segment = segments.places[min(item, segments.count - 1u)];
+    let place = vec2u(segment & 0xffffu, (segment >> 16u) * LINES + lane.x);
     let length = dot(vec2i(view.size), axis);
-    let share_px = (length + i32(TILE * CHUNKS) - 1) / i32(TILE * CHUNKS) * i32(TILE);
-    let begin = min(i32(chunk) * share_px, length);
-    return Share(i32(line) * axis.yx, axis, begin, min(begin + share_px, length), chunk * lines + line, line < lines);
+    let begin = i32(place.x * SEGMENT);
+    let inside = (item < segments.count) & (place.y < lines_of(axis));
+    return Share(i32(place.y) * axis.yx, axis, begin, min(begin + i32(SEGMENT), length), place, inside);
 }
 
 fn eliminate_share(share: Share) {
     if share.inside {
-        pieces[share.slot] = eliminate(share);
+        pieces[piece_slot(share.place, share.axis)] = eliminate(share);
     }
 }
 
@@ -202,35 +225,37 @@ fn substitute_share(share: Share) {
 }
 
 @compute @workgroup_size(LINES, LINES)
-fn eliminate_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) lane: vec3u) {
-    eliminate_share(share_of(group.x, lane.xy, ROW));
+fn eliminate_rows(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_id) lane: vec3u,
+) {
+    eliminate_share(share_of(group, groups, lane.xy, ROW));
 }
 
 @compute @workgroup_size(LINES, LINES)
-fn eliminate_columns(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) lane: vec3u) {
-    eliminate_share(share_of(group.x, lane.xy, COLUMN));
-}
-
-@compute @workgroup_size(64)
-fn solve_ends_of_rows(@builtin(global_invocation_id) item: vec3u) {
-    if item.x < lines_of(ROW) {
-        solve_ends(item.x, lines_of(ROW));
-    }
-}
-
-@compute @workgroup_size(64)
-fn solve_ends_of_columns(@builtin(global_invocation_id) item: vec3u) {
-    if item.x < lines_of(COLUMN) {
-        solve_ends(item.x, lines_of(COLUMN));
-    }
+fn eliminate_columns(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_id) lane: vec3u,
+) {
+    eliminate_share(share_of(group, groups, lane.xy, COLUMN));
 }
 
 @compute @workgroup_size(LINES, LINES)
-fn substitute_rows(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) lane: vec3u) {
-    substitute_share(share_of(group.x, lane.xy, ROW));
+fn substitute_rows(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_id) lane: vec3u,
+) {
+    substitute_share(share_of(group, groups, lane.xy, ROW));
 }
 
 @compute @workgroup_size(LINES, LINES)
-fn substitute_columns(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) lane: vec3u) {
-    substitute_share(share_of(group.x, lane.xy, COLUMN));
+fn substitute_columns(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_id) lane: vec3u,
+) {
+    substitute_share(share_of(group, groups, lane.xy, COLUMN));
 }

@@ -6,10 +6,11 @@ mod gaussian;
 mod narrow_range;
 
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
-use crate::settings::{Filter, Smoothing};
+use crate::settings::{CurvatureFlow as Form, Filter, Smoothing};
 use crate::targets::Targets;
 use bilateral::Bilateral;
-use curvature_flow::CurvatureFlow;
+pub(crate) use curvature_flow::segments_bytes;
+use curvature_flow::{Axis, CurvatureFlow};
 use gaussian::Gaussian;
 use narrow_range::NarrowRange;
 
@@ -27,25 +28,12 @@ type Step<'a> = (&'static str, Work<'a>);
 enum Work<'a> {
     /// A lane for each pixel of the listed tiles.
     Pixels(&'a Kernel),
-    /// Whole rows: a lane for each piece, for each row, and for each piece again.
-    Rows(&'a [Kernel; 3]),
-    /// Whole columns, likewise.
-    Columns(&'a [Kernel; 3]),
+    /// Whole rows or columns.
+    Lines(&'a Axis),
 }
 
 /// Bindings of [`Work::Pixels`]: tiles, input, output.
 const PIXEL_SLOTS: [Slot; 3] = [Slot::Read, Slot::Read, Slot::Write];
-/// Bindings of rows and columns: occupied tiles, input, output, 8 bytes of scratch for each pixel, the lines' pieces.
-const LINE_SLOTS: [Slot; 5] = [Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write];
-/// Pieces of a line: `curvature_flow.wgsl`'s `CHUNKS`.
-const CHUNKS: u64 = 32;
-/// Bytes of `curvature_flow.wgsl`'s `Piece`.
-const PIECE: u64 = 24;
-
-/// Bytes of all pieces of the longer side's lines.
-pub(crate) fn pieces_bytes(size: [u32; 2]) -> u64 {
-    u64::from(size[0].max(size[1])) * CHUNKS * PIECE
-}
 
 impl Smooth {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
@@ -74,40 +62,22 @@ impl Smooth {
         smoothing: &Smoothing,
         targets: &'t Targets,
     ) -> &'t wgpu::Buffer {
+        if smoothing.filter == Filter::CurvatureFlow && smoothing.curvature_flow == Form::Implicit {
+            self.curvature_flow.list_segments(recorder, targets);
+        }
         let mut input = &targets.raw;
         for (i, (name, work)) in self.steps(smoothing).into_iter().enumerate() {
             let output = &targets.smooth[i % 2];
             let name = format!("smooth/{name}");
-            let [across, down] = targets.size;
             match work {
                 Work::Pixels(kernel) => {
                     let resources = [&targets.tiles, input, output].map(wgpu::Buffer::as_entire_binding);
                     recorder.run(&name, kernel, &resources, &Grid::Indirect(&targets.tiles));
                 }
-                Work::Rows(kernels) => run_lines(recorder, &name, kernels, input, output, targets, down),
-                Work::Columns(kernels) => run_lines(recorder, &name, kernels, input, output, targets, across),
+                Work::Lines(axis) => axis.run(recorder, &name, input, output, targets),
             }
             input = output;
         }
         input
-    }
-}
-
-fn run_lines(
-    recorder: &mut Recorder<'_>,
-    name: &str,
-    kernels: &[Kernel; 3],
-    input: &wgpu::Buffer,
-    output: &wgpu::Buffer,
-    targets: &Targets,
-    lines: u32,
-) {
-    // The surface is scratch: it is written only after the filter.
-    let buffers = [&targets.occupied, input, output, &targets.surface, &targets.pieces];
-    let resources = buffers.map(wgpu::Buffer::as_entire_binding);
-    let lines = u64::from(lines);
-    let pieces = Grid::Items(lines.next_multiple_of(8) * CHUNKS, 64);
-    for (kernel, grid) in kernels.iter().zip([&pieces, &Grid::Items(lines, 64), &pieces]) {
-        recorder.run(name, kernel, &resources, grid);
     }
 }
