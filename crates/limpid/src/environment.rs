@@ -22,14 +22,15 @@ pub struct Environment {
 
 impl Environment {
     /// Surroundings for a fluid within `min` and `max` (world): a floor just under it, tiles in proportion to it, the
-    /// sun behind the viewer's left shoulder where `eye` looks on.
+    /// sun beyond it and to the right, seen from `eye`.
     pub fn around(min: DVec3, max: DVec3, floor: f64, up: DVec3, eye: DVec3) -> Self {
         let center = 0.5 * (min + max);
         let away = (eye - center).reject_from(up).normalize_or(up.any_orthonormal_vector());
         let left = up.cross(away);
         // Against the light, to one side: the highlights fall on the crests and the water glows.
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
-        let extent = (0.5 * (max - min).length()).max(f64::MIN_POSITIVE);
+        // A subject without size gets one, so that nothing is divided by 0.
+        let extent = Some(0.5 * (max - min).length()).filter(|extent| *extent > 0.0).unwrap_or(1.0);
         Self { up, sun, floor: Some(floor), center, extent }
     }
 

@@ -21,7 +21,7 @@ const SUN_LIGHT: vec3f = vec3f(1.0, 0.94, 0.84);
 
 fn sky(direction: vec3f) -> vec3f {
     let height = max(dot(direction, environment.up), 0.0);
-    var color = mix(vec3f(0.66, 0.72, 0.78), vec3f(0.13, 0.27, 0.50), sqrt(height));
+    var color = mix(vec3f(0.66, 0.72, 0.78), vec3f(0.13, 0.27, 0.50), height * (2.0 - height));
     // Wisps of cloud: cheap waves bent by waves.
     let north = cross(environment.up, environment.east);
     let plane = vec2f(dot(direction, environment.east), dot(direction, north)) / (height + 0.25);

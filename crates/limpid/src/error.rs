@@ -15,17 +15,15 @@ pub enum Error {
     },
     /// A picture without pixels, or with more than the device can hold.
     #[error(
-        "a picture of {width} x {height} pixels needs buffers of {needed} bytes, but this device allows 1 to {limit}: choose another size"
+        "a picture of {width} x {height} pixels is not possible on this device: choose from 1 to {most} pixels in all"
     )]
     Size {
         /// Pixels across.
         width: u32,
         /// Pixels down.
         height: u32,
-        /// Bytes of the largest buffer that the picture needs.
-        needed: u64,
-        /// Bytes that the device allows.
-        limit: u64,
+        /// Pixels that the device can hold.
+        most: u64,
     },
     /// A camera that sees nothing, or that is not finite.
     #[error("the camera is unusable: {0}")]

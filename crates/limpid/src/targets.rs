@@ -109,9 +109,9 @@ impl Targets {
         let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let [width, height] = picture_size;
         let picture_pixels = u64::from(width) * u64::from(height);
-        let needed = picture_pixels * LARGEST_PIXEL;
-        if picture_pixels == 0 || needed > limit || width.max(height) > TILE_PX * 65_535 {
-            return Err(Error::Size { width, height, needed, limit });
+        let most = limit / LARGEST_PIXEL;
+        if picture_pixels == 0 || picture_pixels > most || width.max(height) > TILE_PX * 65_535 {
+            return Err(Error::Size { width, height, most });
         }
         let size = filter_scale.of(picture_size);
         let pixels = u64::from(size[0]) * u64::from(size[1]);

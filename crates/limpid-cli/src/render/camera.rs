@@ -41,11 +41,12 @@ impl Stage {
         let extent = survey.extent.unwrap_or(unit).grown(radius_world);
         let up = options.data_up();
 
-        let pose = pose(options, &bounds.grown(radius_world), &extent)?;
+        let grown = bounds.grown(radius_world);
+        let pose = pose(options, &grown, &extent)?;
         let view = view(options, pose, &extent, radius_world);
         // The lowest particles stand on the floor.
         let floor = bounds.min.dot(up) - radius_world;
-        let environment = Environment::around(bounds.min, bounds.max, floor, up, pose.eye);
+        let environment = Environment::around(grown.min, grown.max, floor, up, pose.eye);
         Ok(Self { view, environment })
     }
 

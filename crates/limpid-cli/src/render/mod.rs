@@ -54,13 +54,6 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
 
     let survey = Survey::of(&sequence.frames, &options)?;
-    // Only now: a failure so far is one line.
-    for warning in sequence.warnings.iter().chain(&survey.warnings) {
-        console::warn(warning);
-    }
-    if let (false, Some(radius)) = (quiet, survey.radius_note()) {
-        console::note(&radius);
-    }
     let stage = Stage::of(&options, &survey)?;
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
     for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
@@ -69,6 +62,15 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         let shot = stage.shot(&options, &particles);
         let wanted = Wanted { show: options.show.map(|aov| aov.0), aovs: &outputs.aovs };
         render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
+        if index == 0 {
+            // Only now: a failure so far is one line.
+            for warning in sequence.warnings.iter().chain(&survey.warnings) {
+                console::warn(warning);
+            }
+            if let (false, Some(radius)) = (quiet, survey.radius_note()) {
+                console::note(&radius);
+            }
+        }
         if index + 1 == sequence.frames.len()
             && let Some(target) = &outputs.timings
         {

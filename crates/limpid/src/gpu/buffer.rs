@@ -5,8 +5,8 @@ use wgpu::BufferUsages;
 pub(crate) fn storage_buffer(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        // wgpu wants bindings of at least 4 bytes and sizes in words.
-        size: bytes.max(16).next_multiple_of(4),
+        // Never smaller than a shader's struct of a header and one element.
+        size: bytes.max(64).next_multiple_of(4),
         usage: BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC | BufferUsages::INDIRECT,
         mapped_at_creation: false,
     })

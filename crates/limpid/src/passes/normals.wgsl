@@ -12,7 +12,7 @@ fn nearness_at(at: vec2i) -> f32 {
 }
 
 // Slope of the nearness per pixel along an axis. Neighbours within the step of the centre are the same sheet: the central
-// difference where both are, else the difference to the nearer in depth, else none (one lonely pixel faces the eye).
+// difference where both are or where the steps to both are alike, else the difference to the nearer in depth, else none (one lonely pixel faces the eye).
 fn nearness_slope(at: vec2i, axis: vec2i, center: f32) -> f32 {
     let next = nearness_at(at + axis);
     let last = nearness_at(at - axis);
@@ -22,7 +22,9 @@ fn nearness_slope(at: vec2i, axis: vec2i, center: f32) -> f32 {
     // The background is no sheet, even where the camera is less than the step away.
     let ahead_is_sheet = next > 0.0 && abs(ahead) <= limit;
     let behind_is_sheet = last > 0.0 && abs(behind) <= limit;
-    if ahead_is_sheet && behind_is_sheet {
+    // A wall seen at a grazing angle steps far from pixel to pixel, but evenly.
+    let is_steep_sheet = next > 0.0 && last > 0.0 && abs(ahead - behind) <= limit;
+    if (ahead_is_sheet && behind_is_sheet) || is_steep_sheet {
         return 0.5 * (ahead + behind);
     }
     if !ahead_is_sheet && !behind_is_sheet {

@@ -1,7 +1,7 @@
 //! What must hold whatever the particles are.
 
 use crate::fluid::{Drawn, Fluid, Particle};
-use crate::scenes::{SIZE, cloud, dam_break, from_above, looking, mark_of, marked, slab};
+use crate::scenes::{SIZE, cloud, dam_break, from_above, looking, mark_of, marked, slab, stretched};
 use glam::{DMat3, DVec3, Vec3};
 use limpid::{Anisotropy, Scale, Settings, View};
 
@@ -24,7 +24,7 @@ fn skipping_hidden_particles_changes_no_bit() {
         let worked_on = with.ellipsoids.iter().filter(|e| e.shape != DMat3::IDENTITY).count();
         assert!(worked_on as f64 <= most * particles.len() as f64, "{worked_on} of {} particles", particles.len());
     };
-    let base = Settings::default();
+    let base = stretched();
     let still = Settings { anisotropy: Anisotropy { center_smoothing: 0.0, ..base.anisotropy }, ..base };
     let coarse = Settings { filter_scale: Scale::Quarter, ..base };
     let dam = marked(dam_break());
@@ -42,11 +42,11 @@ fn skipping_hidden_particles_changes_no_bit() {
 #[test]
 fn same_bits_every_run() {
     let dam = marked(dam_break());
-    let first = Fluid::new().draw(&dam, &dam_view(), SIZE, &Settings::default());
+    let first = Fluid::new().draw(&dam, &dam_view(), SIZE, &stretched());
     let mut fluid = Fluid::new();
-    fluid.draw(&marked(cloud(40_000, 30.0, 12)), &dam_view(), SIZE, &Settings::default());
+    fluid.draw(&marked(cloud(40_000, 30.0, 12)), &dam_view(), SIZE, &stretched());
     for _ in 0..3 {
-        assert!(bits(&fluid.draw(&dam, &dam_view(), SIZE, &Settings::default())) == bits(&first));
+        assert!(bits(&fluid.draw(&dam, &dam_view(), SIZE, &stretched())) == bits(&first));
     }
 }
 
@@ -57,8 +57,8 @@ fn shuffled_particles_give_the_same_picture() {
     let mut shuffled = dam.clone();
     shuffled.sort_by_key(|p| mark_of(p.radius) * 7919 % 10_007);
     let mut fluid = Fluid::new();
-    let one = fluid.draw(&dam, &dam_view(), SIZE, &Settings::default());
-    let other = fluid.draw(&shuffled, &dam_view(), SIZE, &Settings::default());
+    let one = fluid.draw(&dam, &dam_view(), SIZE, &stretched());
+    let other = fluid.draw(&shuffled, &dam_view(), SIZE, &stretched());
     let off = one.depth.iter().zip(&other.depth).filter(|(a, b)| a != b && !((*a - *b).abs() < 2e-2)).count();
     assert!(off <= 5, "{off} pixels differ");
 }
@@ -69,18 +69,17 @@ fn a_scene_far_from_the_origin_looks_the_same() {
     let shift = DVec3::new(1e5, -7e4, 9e4);
     let eye = DVec3::new(3.0, 20.0, 40.0);
     let mut fluid = Fluid::new();
-    let here = fluid.draw(&particles, &looking(eye, DVec3::ZERO), SIZE, &Settings::default());
+    let here = fluid.draw(&particles, &looking(eye, DVec3::ZERO), SIZE, &stretched());
     let far = looking(eye + shift, shift);
-    let there = fluid.draw_about(shift, &particles, &far, SIZE, &Settings::default());
+    let there = fluid.draw_about(shift, &particles, &far, SIZE, &stretched());
     let off = here.depth.iter().zip(&there.depth).filter(|(a, b)| a != b && !((*a - *b).abs() < 0.02)).count();
     assert!(off * 1000 <= here.depth.len(), "{off} pixels differ");
 }
 
 #[test]
 fn ellipsoids_keep_the_volume_of_their_spheres() {
-    let anisotropy = Anisotropy { skip_hidden: false, ..Anisotropy::default() };
-    let drawn =
-        Fluid::new().draw(&marked(dam_break()), &dam_view(), SIZE, &Settings { anisotropy, ..Settings::default() });
+    let anisotropy = Anisotropy { skip_hidden: false, ..stretched().anisotropy };
+    let drawn = Fluid::new().draw(&marked(dam_break()), &dam_view(), SIZE, &Settings { anisotropy, ..stretched() });
     for ellipsoid in drawn.ellipsoids {
         let volume = ellipsoid.shape.determinant();
         assert!((volume - 1.0).abs() < 0.01, "{volume}");
@@ -92,11 +91,11 @@ fn ellipsoids_keep_the_volume_of_their_spheres() {
 fn few_particles_stay_round_where_they_are() {
     let mut fluid = Fluid::new();
     let view = looking(DVec3::Z * 20.0, DVec3::ZERO);
-    let round = Settings { anisotropy: Anisotropy { enabled: false, ..Anisotropy::default() }, ..Settings::default() };
+    let round = Settings { anisotropy: Anisotropy { enabled: false, ..stretched().anisotropy }, ..stretched() };
     let line = |count: usize| (0..count).map(|k| Vec3::new(2.0 * k as f32 - count as f32, 0.0, 0.0)).collect();
     for positions in [Vec::new(), line(1), line(2), line(8), vec![Vec3::ONE; 5]] {
         let particles = marked(positions);
-        let ellipsoids = fluid.draw(&particles, &view, SIZE, &Settings::default());
+        let ellipsoids = fluid.draw(&particles, &view, SIZE, &stretched());
         let spheres = fluid.draw(&particles, &view, SIZE, &round);
         let off = ellipsoids.depth.iter().zip(&spheres.depth).filter(|(a, b)| a != b && !((*a - *b).abs() < 1e-4));
         assert!(off.count() <= 2, "{} particles", particles.len());
@@ -109,14 +108,13 @@ fn lines_and_planes_hold_together() {
     let mut fluid = Fluid::new();
     let view = from_above(20.0);
     let dense = |k: i32| 0.25 * k as f32;
-    let line =
-        fluid.draw(&marked((-60..=60).map(|k| Vec3::new(dense(k), 0.0, 0.0))), &view, SIZE, &Settings::default());
+    let line = fluid.draw(&marked((-60..=60).map(|k| Vec3::new(dense(k), 0.0, 0.0))), &view, SIZE, &stretched());
     let middle = |drawn: &Drawn, x: u32, y: u32| drawn.depth[(y * SIZE[0] + x) as usize];
     for x in 60..SIZE[0] - 60 {
         assert!((49.0..50.0).contains(&middle(&line, x, SIZE[1] / 2)), "{}", middle(&line, x, SIZE[1] / 2));
     }
     let plane = (-12..=12).flat_map(|x| (-12..=12).map(move |z| Vec3::new(x as f32, 0.0, z as f32)));
-    let plane = fluid.draw(&marked(plane), &view, SIZE, &Settings::default());
+    let plane = fluid.draw(&marked(plane), &view, SIZE, &stretched());
     for y in 40..SIZE[1] - 40 {
         assert!((49.0..50.0).contains(&middle(&plane, SIZE[0] / 2, y)), "{}", middle(&plane, SIZE[0] / 2, y));
     }

@@ -1,12 +1,12 @@
 //! The splat against f64 rays through the same ellipsoids.
 
 use crate::fluid::{Drawn, Ellipsoid, Fluid, Particle};
-use crate::scenes::{SIZE, cloud, from_above, looking, marked, slab};
+use crate::scenes::{SIZE, cloud, from_above, looking, marked, slab, stretched};
 use glam::{DMat3, DVec3};
 use limpid::{Settings, View};
 
 fn settings() -> Settings {
-    Settings { splat_scale: 1.4, ..Settings::default() }
+    Settings { splat_scale: 1.4, ..stretched() }
 }
 
 /// View depths at which the ray through a pixel centre enters and leaves an ellipsoid, cut at the near plane.

@@ -2,7 +2,7 @@
 
 use crate::fluid::Particle;
 use glam::{DVec3, Vec3};
-use limpid::View;
+use limpid::{Anisotropy, Settings, View};
 
 /// Pseudo-random numbers in 0..1 (xorshift), the same every run.
 pub struct Random(u64);
@@ -76,4 +76,10 @@ pub fn looking(eye: DVec3, target: DVec3) -> View {
 pub fn from_above(height: f64) -> View {
     let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
     View::orthographic(DVec3::Y * 50.0, DVec3::ZERO, DVec3::Z, height, aspect, 1.0, 200.0)
+}
+
+/// The defaults, with anisotropy on.
+pub fn stretched() -> Settings {
+    let spheres = Settings::default();
+    Settings { anisotropy: Anisotropy { enabled: true, ..spheres.anisotropy }, ..spheres }
 }

@@ -1,15 +1,15 @@
 //! Ellipsoids against the f64 twin.
 
 use crate::fluid::{Fluid, Particle};
-use crate::scenes::{SIZE, cloud, dam_break, looking, mark_of, marked, slab};
+use crate::scenes::{SIZE, cloud, dam_break, looking, mark_of, marked, slab, stretched};
 use crate::twin;
 use glam::{DVec3, Vec3};
 use limpid::{Anisotropy, Settings};
 
 /// Every ellipsoid: nothing is left out.
 fn all() -> Settings {
-    let anisotropy = Anisotropy { skip_hidden: false, center_smoothing: 0.9, ..Anisotropy::default() };
-    Settings { anisotropy, ..Settings::default() }
+    let anisotropy = Anisotropy { skip_hidden: false, center_smoothing: 0.9, ..stretched().anisotropy };
+    Settings { anisotropy, ..stretched() }
 }
 
 /// Compares every `step`th particle; `reach` is the farthest that any may look for neighbours.

@@ -11,8 +11,8 @@ const SIZE: [u32; 2] = [400, 400];
 /// Tall enough for the whole slab and the background around it: a radius is 5.7 pixels.
 const HEIGHT: f64 = 3.5;
 
-/// The filter's reach is two and a half standard deviations of 1.6 r by the square root of 2, and 2 pixels of its last step; 2 r beyond that.
-const MARGIN_R: f64 = 2.5 * 1.6 * 1.42 + 0.4 + 2.0;
+/// The filter's reach is two and a half standard deviations of 1.6 r by the square root of 2, and 4 pixels of its last step; 2 r beyond that.
+const MARGIN_R: f64 = 2.5 * 1.6 * 1.42 + 0.8 + 2.0;
 
 fn views() -> [(&'static str, View); 2] {
     [("orthographic", above(8.0, HEIGHT, SIZE)), ("perspective", above_perspective(60.0, HEIGHT, SIZE))]

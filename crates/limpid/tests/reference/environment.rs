@@ -81,7 +81,7 @@ fn checker(x: f64, y: f64, width: f64, depth: f64) -> f64 {
 
 fn sky(environment: &Environment, direction: DVec3) -> DVec3 {
     let height = direction.dot(environment.up).max(0.0);
-    let clear = DVec3::new(0.66, 0.72, 0.78).lerp(DVec3::new(0.13, 0.27, 0.50), height.sqrt());
+    let clear = DVec3::new(0.66, 0.72, 0.78).lerp(DVec3::new(0.13, 0.27, 0.50), height * (2.0 - height));
     let plane = on_ground(environment, direction) / (height + 0.25);
     let wave_x = (2.3 * plane.x + 1.4 * (1.7 * plane.y + 0.6).sin()).sin();
     let wave_y = (2.9 * plane.y + 1.4 * (2.1 * plane.x + 2.2).sin()).sin();

@@ -23,7 +23,8 @@ pub fn normals(camera: &Camera, depth: &[f64], sheet_step: f64) -> Vec<DVec3> {
     camera.pixels().map(normal).collect()
 }
 
-/// Step in depth (along the tangent) per pixel: central where both neighbours are of the same sheet, else towards the one
+/// Step in depth (along the tangent) per pixel: central where both neighbours are of the same sheet or the
+/// steps to them alike, else towards the one
 /// that is, else none.
 fn slope(camera: &Camera, depth: &[f64], px: DVec2, axis: DVec2, sheet_step: f64) -> f64 {
     let center = depth[camera.index_at(px)];
@@ -31,9 +32,16 @@ fn slope(camera: &Camera, depth: &[f64], px: DVec2, axis: DVec2, sheet_step: f64
         let inside = at.x > 0.0 && at.y > 0.0 && at.x < camera.size[0].into() && at.y < camera.size[1].into();
         let sample = if inside { depth[camera.index_at(at)] } else { f64::INFINITY };
         let step = camera.depth_step(center, sample);
-        (sample.is_finite() && step.abs() <= sheet_step).then_some(step)
+        sample.is_finite().then_some(step)
     };
-    match (step_to(px + axis), step_to(px - axis)) {
+    let near = |step: &f64| step.abs() <= sheet_step;
+    let (ahead, behind) = (step_to(px + axis), step_to(px - axis));
+    if let (Some(ahead), Some(behind)) = (ahead, behind)
+        && near(&(ahead + behind))
+    {
+        return 0.5 * (ahead - behind);
+    }
+    match (ahead.filter(near), behind.filter(near)) {
         (Some(ahead), Some(behind)) => 0.5 * (ahead - behind),
         (Some(ahead), None) => ahead,
         (None, Some(behind)) => -behind,

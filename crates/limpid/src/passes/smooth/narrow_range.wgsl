@@ -6,7 +6,8 @@
 
 // Half-width of the Gaussian window in standard deviations.
 const REACH: f32 = 2.5;
-const CLEANUP_PX: i32 = 2;
+// Half-width in pixels of the last, two-dimensional window: half a standard deviation of the others, within these.
+const CLEANUP_PX: vec2f = vec2f(2.0, 4.0);
 
 struct Side {
     far: f32, // the range of accepted steps in depth on this side; it grows with what it accepts
@@ -119,7 +120,8 @@ fn narrow_range_cleanup(
         return;
     }
     let center = input[pixel.index];
-    let sigma = min(sigma_px(center), 0.5 * f32(CLEANUP_PX));
+    let reach = i32(clamp(ceil(0.5 * sigma_px(center)), CLEANUP_PX.x, CLEANUP_PX.y));
+    let sigma = min(sigma_px(center), 0.5 * f32(reach));
     if center <= 0.0 || sigma <= 0.0 {
         output[pixel.index] = center;
         return;
@@ -127,9 +129,9 @@ fn narrow_range_cleanup(
     let slope = depth_slope(center);
     var sum = 0.0;
     var weights = 1.0;
-    for (var y = 0; y <= CLEANUP_PX; y++) {
+    for (var y = 0; y <= reach; y++) {
         // Half of the window; the other half is its mirror.
-        for (var x = select(-CLEANUP_PX, 1, y == 0); x <= CLEANUP_PX; x++) {
+        for (var x = select(-reach, 1, y == 0); x <= reach; x++) {
             let offset = vec2i(x, y);
             let at_a = pixel.at + offset;
             let at_b = pixel.at - offset;
