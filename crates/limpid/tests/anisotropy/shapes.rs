@@ -21,7 +21,7 @@ fn compare(particles: &[Particle], step: usize, reach: f64) {
     for ellipsoid in drawn.ellipsoids {
         let index = mark_of(ellipsoid.radius);
         assert!(!std::mem::replace(&mut met[index], true), "particle {index} twice");
-        if index % step == 0 {
+        if index.is_multiple_of(step) {
             let twin = twin::ellipsoid(particles, index, &settings.anisotropy, reach);
             // Beside the sums' own rounding, that of positions far from the origin.
             let off = (ellipsoid.center - twin.center).length() - 2e-7 * twin.center.length();
