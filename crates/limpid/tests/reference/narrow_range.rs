@@ -112,10 +112,10 @@ fn along(filter: &Filter<'_>, axis: [i64; 2], sigma_world: f64, max_radius_px: u
     })
 }
 
-/// The small window in two dimensions, half a standard deviation but 2 to 4 pixels each way, every pair judged alone.
+/// The small window in two dimensions, half a standard deviation but 2 to 6 pixels each way, every pair judged alone.
 fn cleanup(filter: &Filter<'_>, sigma_world: f64) -> Vec<f64> {
     filter.moved(sigma_world, |at, center, sigma_px| {
-        let reach = (0.5 * sigma_px).ceil().clamp(2.0, 4.0) as i64;
+        let reach = (0.5 * sigma_px).ceil().clamp(2.0, 6.0) as i64;
         let sigma_px = sigma_px.min(0.5 * reach as f64);
         let (mut sum, mut weights) = (0.0, 1.0);
         for offset in

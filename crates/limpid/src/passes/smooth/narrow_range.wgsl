@@ -7,7 +7,7 @@
 // Half-width of the Gaussian window in standard deviations.
 const REACH: f32 = 2.5;
 // Half-width in pixels of the last, two-dimensional window: half a standard deviation of the others, within these.
-const CLEANUP_PX: vec2f = vec2f(2.0, 4.0);
+const CLEANUP_PX: vec2f = vec2f(2.0, 6.0);
 
 struct Side {
     far: f32, // the range of accepted steps in depth on this side; it grows with what it accepts
@@ -143,7 +143,7 @@ fn narrow_range_cleanup(
             let a = take(&ahead, center, nearness_at(at_a), slope);
             let b = take(&behind, center, nearness_at(at_b), slope);
             if !a.rejected && !b.rejected {
-                let weight = exp(-0.5 * f32(x * x + y * y) / (sigma * sigma));
+                let weight = exp(-0.5 * f32(dot(offset, offset)) / (sigma * sigma));
                 sum += weight * (a.step + b.step);
                 weights += 2.0 * weight;
             }
