@@ -67,8 +67,11 @@ fn sunlight(at: vec3f) -> vec3f {
 fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let descent = -dot(direction, environment.up);
     let height = environment.eye_height + dot(from_eye, environment.up);
-    if max(descent, 0.0) * height <= 0.0 {
-        return sky(direction);
+    let floor_seen = max(descent, 0.0) * height > 0.0;
+    // The floor fades into the sky above it. One call for both: CPUs run both sides of a branch.
+    let behind = sky(normalize(direction + select(0.0, descent, floor_seen) * environment.up));
+    if !floor_seen {
+        return behind;
     }
     let distance = height / descent;
     let at = environment.eye_from_center + from_eye + distance * direction;
@@ -76,10 +79,9 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let tiles = vec2f(dot(at, environment.east), dot(at, north)) / environment.tile;
     let width = spread * distance / environment.tile;
     let stone = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.52, 0.51, 0.495), checker(tiles, vec2f(width, width / descent)));
-    let horizon = sky(normalize(direction + descent * environment.up));
     var light = vec3f(1.0);
     if environment.shadow_texels > 0u {
         light = 0.45 + 0.55 * sunlight(at);
     }
-    return mix(horizon, stone * light, exp(-environment.tile_fade * dot(tiles, tiles)));
+    return mix(behind, stone * light, exp(-environment.tile_fade * dot(tiles, tiles)));
 }

@@ -10,7 +10,7 @@ use crate::{Environment, Particles, Scale};
 use bytemuck::Zeroable;
 
 /// Texels along the map's edge.
-pub(crate) const SHADOW_TEXELS: u32 = 256;
+pub(crate) const SHADOW_TEXELS: u32 = 128;
 
 /// Drawn radius over particle radius: wide splats blur the map for free, as the sun's disc and the ripples of a real
 /// surface would.

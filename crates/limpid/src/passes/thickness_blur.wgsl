@@ -28,9 +28,12 @@ fn blur(texel: vec2u, axis: vec2i) {
     }
     let index = texel.y * settings.thickness_size.x + texel.x;
     let center = input[index];
+    output[index] = center;
+    if center <= 0.0 {
+        return;
+    }
     let nearness = nearest_in(texel);
-    if center <= 0.0 || nearness <= 0.0 {
-        output[index] = center;
+    if nearness <= 0.0 {
         return;
     }
     let sigma = SIGMA * settings.radius * px_per_world(depth_of(nearness)) / settings.thickness_divisor;

@@ -5,7 +5,7 @@ use super::{Camera, balls_of, liquid};
 use glam::{DVec2, DVec3};
 use limpid::{Environment, ParticleSlices, Scale, Settings, View};
 
-const TEXELS: u32 = 256;
+const TEXELS: u32 = 128;
 
 /// Depth of liquid towards the sun, drawn with balls of 3 r over a square around the subject.
 pub struct Shadow {
