@@ -19,7 +19,7 @@ impl Composite {
         let pipeline = target.fullscreen_pipeline(
             device,
             &module,
-            "composite",
+            if target.depth.is_some() { "composite" } else { "composite_color" },
             &[Some(frame), Some(&layout)],
             Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
         );

@@ -8,9 +8,8 @@ struct Fragment {
     @builtin(frag_depth) depth: f32,
 }
 
-@fragment
-fn composite(@builtin(position) position: vec4f) -> Fragment {
-    let pixel = min(vec2u(position.xy), settings.picture_size - 1u);
+fn fluid_at(position: vec2f) -> Fragment {
+    let pixel = min(vec2u(position), settings.picture_size - 1u);
     let index = pixel.y * settings.picture_size.x + pixel.x;
     let near = abs(nearness[index]);
     if near == 0.0 {
@@ -21,4 +20,15 @@ fn composite(@builtin(position) position: vec4f) -> Fragment {
         discard;
     }
     return Fragment(color, host_from_depth(depth_of(near)));
+}
+
+@fragment
+fn composite(@builtin(position) position: vec4f) -> Fragment {
+    return fluid_at(position.xy);
+}
+
+// For targets without depth.
+@fragment
+fn composite_color(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return fluid_at(position.xy).color;
 }

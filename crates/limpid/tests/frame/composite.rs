@@ -144,3 +144,14 @@ fn what_is_in_front_stays() {
     let drawn = host_depth(&cloud, view, &crate::common::unsmoothed(), CompareFunction::Greater, before);
     assert!(drawn.iter().all(|depth| *depth == before));
 }
+
+#[test]
+fn a_target_without_depth() {
+    with_gpu(|offscreen| {
+        let device = &offscreen.gpu().device;
+        let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        Renderer::new(device, &TargetFormat { color: TextureFormat::Rgba16Float, depth: None, samples: 1 });
+        let error = pollster::block_on(scope.pop());
+        assert!(error.is_none(), "{error:?}");
+    });
+}
