@@ -221,15 +221,16 @@ impl Smoothing {
 pub struct Optics {
     /// Index of refraction, 1 to 3, default 1.333 (water).
     pub refractive_index: f32,
-    /// Beer-Lambert absorption of red, green and blue.
+    /// Beer-Lambert absorption of red, green and blue; default (0.045, 0.015, 0.0075) per r.
     pub absorption: Absorption,
-    /// Linear colour of a body of liquid so deep that nothing shines through: C_fluid of Eq. 14.
+    /// Linear colour of a body of liquid so deep that nothing shines through: C_fluid of Eq. 14;
+    /// each 0 to 1000, default (0.007, 0.048, 0.085).
     pub color: [f32; 3],
-    /// gamma of Eq. 15: how far the background is shifted, in units of the thickness along the normal; 0 to 4.
+    /// gamma of Eq. 15: how much of Snell's bend the background is shifted by; 0 to 4, default 0.5.
     pub refraction: f32,
-    /// k_s of Eq. 13: strength of the sun's highlight, 0 to 4.
+    /// k_s of Eq. 13: strength of the sun's highlight, 0 to 4, default 1.
     pub specular: f32,
-    /// alpha of Eq. 13: the highlight's exponent, 1 to 4096; higher is smaller and sharper.
+    /// alpha of Eq. 13: the highlight's exponent, 1 to 4096, default 300; higher is smaller and sharper.
     pub shininess: f32,
 }
 

@@ -1,4 +1,4 @@
-//! The passes of a frame, in the order of their names here; each is one file beside its WGSL.
+//! The passes of a frame, each one file beside its WGSL; renderer.rs has their order.
 
 mod anisotropy;
 mod composite;

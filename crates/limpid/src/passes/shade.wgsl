@@ -20,6 +20,10 @@ struct Optics {
 @group(1) @binding(8) var<storage, read> shadow: array<f32>;
 
 const BACKGROUND_NONE: u32 = 0u;
+// Brightness of the sun's mirror image, over that of a white wall in the sun.
+const GLINT: f32 = 4.0;
+// Width of the cone of a reflected ray per distance: ripples too fine to see blur what they reflect.
+const REFLECTED_SPREAD: f32 = 0.02;
 
 // Unpolarised reflectance of a smooth dielectric, exact; `cosine` of the angle to the normal, `index` above 1.
 fn fresnel(cosine: f32, index: f32) -> f32 {
@@ -85,10 +89,10 @@ fn shade(
     let normal_world = rotation * normal;
     let toward_world = rotation * toward;
     let reflected = reflect(toward_world, normal_world);
-    let around = surroundings(rotation * position, reflected, 0.02);
+    let around = surroundings(rotation * position, reflected, REFLECTED_SPREAD);
 
     let highlight = pow(max(dot(normal_world, normalize(environment.sun - toward_world)), 0.0), optics.shininess);
-    let glint = SUN_LIGHT * (optics.specular * highlight * 4.0);
+    let glint = SUN_LIGHT * (optics.specular * highlight * GLINT);
 
     let transmitted = exp(-optics.absorption * thickness) * (1.0 - reflectance);
     let body = optics.color * (1.0 - reflectance - transmitted);

@@ -48,27 +48,28 @@ fn upsample(@builtin(global_invocation_id) pixel: vec3u) {
         picture_raw[index] = 0.0;
         return;
     }
-    let nearest_texel = min(vec2u(round(at)), view.size - 1u);
-    picture_raw[index] = raw[nearest_texel.y * view.size.x + nearest_texel.x];
 
     let sheet_step = settings.normal_step * settings.radius / depth_slope(main_nearness);
     var sheet = 0.0;
     var near = 0.0;
+    var raw_near = 0.0;
     var normal_thickness = vec4f(0.0);
     for (var corner = 0; corner < 4; corner++) {
         let value = nearness[texels[corner]];
         if weights[corner] > 0.0 && abs(value - main_nearness) <= sheet_step {
             sheet += weights[corner];
             near += weights[corner] * value;
+            raw_near += weights[corner] * raw[texels[corner]];
             normal_thickness += weights[corner] * surface[texels[corner]];
         }
     }
     near /= sheet;
-    let px = (vec2f(pixel.xy) + 0.5) / settings.fluid_scale;
-    if depth_of(near) >= scene_depth_at(px) {
-        return;
-    }
-    picture_nearness[index] = select(-near, near, coverage >= 0.5);
+    raw_near /= sheet;
+    // A fringe that is less than half fluid shows its colour but has no surface.
+    let side = select(-1.0, 1.0, coverage >= 0.5);
+    picture_nearness[index] = side * near;
+    picture_raw[index] = side * raw_near;
     picture_surface[index] = vec4f(normalize(normal_thickness.xyz), normal_thickness.w / sheet);
-    picture_shaded[index] = color;
+    let px = (vec2f(pixel.xy) + 0.5) / settings.fluid_scale;
+    picture_shaded[index] = select(color, vec4f(0.0), depth_of(near) >= scene_depth_at(px));
 }

@@ -1,6 +1,6 @@
 //! The fluid at half and quarter resolution.
 
-use crate::common::{Cloud, Difference, Rendered, forward, looking, render, shot_of};
+use crate::common::{Cloud, Difference, Rendered, forward, looking, render, shot_of, unsmoothed};
 use crate::reference::{Camera, Surface, upsampled_surface};
 use limpid::{Scale, Settings};
 
@@ -80,6 +80,16 @@ fn far_from_silhouettes(depth: &[f32], [width, height]: [u32; 2], i: usize, radi
         let inside = x >= 0 && y >= 0 && x < i64::from(width) && y < i64::from(height);
         inside && f64::from((depth[(y * i64::from(width) + x) as usize] - depth[i]).abs()) < 8.0 * radius
     })
+}
+
+#[test]
+fn without_a_filter_depth_is_raw_depth() {
+    for filter_scale in [Scale::Full, Scale::Half, Scale::Quarter] {
+        let cloud = Cloud::sphere_drop();
+        let view = looking([1.6, 0.9, 1.9], [0.5, 0.25, 0.5], LOW);
+        let shown = render(&shot_of(&cloud, view, LOW, Settings { filter_scale, ..unsmoothed() }));
+        assert!(shown.depth == shown.raw_depth, "{filter_scale:?}");
+    }
 }
 
 /// At quarter resolution this drop, three pixels wide, lies between the centres of the fluid's pixels.

@@ -1,5 +1,5 @@
-// The narrow-range filter of Truong and Yuksel 2018, separable, then one small 2D pass that takes the separable streaks
-// away. Samples are compared by their step in depth along the centre's tangent (frame.wgsl), so a plane stays a plane.
+// The narrow-range filter of Truong and Yuksel 2018, separable, as often as asked; then one small 2D pass that softens the
+// separable streaks. Samples are compared by their step in depth along the centre's tangent (frame.wgsl), so a plane stays a plane.
 
 @group(1) @binding(1) var<storage, read> input: array<f32>;
 @group(1) @binding(2) var<storage, read_write> output: array<f32>;
