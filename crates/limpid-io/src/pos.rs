@@ -29,5 +29,10 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     if !input.at_end()? {
         return broken!("bytes follow its {count} particles");
     }
-    Ok(Raw { file_radius: Some(f64::from(radius)), ..Raw::new(Positions::F32(positions)) })
+    let raw = Raw::new(Positions::F32(positions));
+    if radius.is_finite() && radius > 0.0 {
+        return Ok(Raw { file_radius: Some(f64::from(radius)), ..raw });
+    }
+    let warnings = vec![format!("its header gives a radius of {radius}, which is none")];
+    Ok(Raw { warnings, ..raw })
 }

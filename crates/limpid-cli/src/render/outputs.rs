@@ -167,6 +167,8 @@ fn placeholder(name: &str) -> Option<(&str, usize, &str)> {
         && let Some((digits, after)) = rest.split_once('d')
         && digits.len() <= 2
         && digits.bytes().all(|byte| byte.is_ascii_digit())
+        // Part of a word, as in 50%done: no placeholder.
+        && !after.starts_with(|next: char| next.is_alphanumeric())
     {
         return Some((before, digits.parse().unwrap_or(0), after));
     }
@@ -188,6 +190,7 @@ mod tests {
             ("f_######.png", "f_000007.png"),
             ("a/f.png", "a/f_0007.png"),
             ("50%.png", "50%_0007.png"),
+            ("50%done.png", "50%done_0007.png"),
             ("a.b/f.c.exr", "a.b/f.c_0007.exr"),
         ];
         for (template, expected) in cases {
