@@ -4,15 +4,8 @@
 // 2 H is the divergence of the unit normal, here the one away from the viewer, negated. A normal field that is constant
 // along each ray (p, q, 1) has, in perspective, the divergence u (N_x,p + N_y,q - p N_z,p - q N_z,q), u = 1 / z.
 
-@group(1) @binding(0) var<storage, read> nearness: array<f32>;
+@group(1) @binding(0) var<storage, read> input: array<f32>; // nearness
 @group(1) @binding(1) var<storage, read_write> curvature: array<f32>; // of the picture's pixels
-
-fn nearness_at(at: vec2i) -> f32 {
-    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
-        return 0.0;
-    }
-    return nearness[u32(at.y) * view.size.x + u32(at.x)];
-}
 
 // Change of the unit normal over a pixel, per unit of the ray's slope (perspective) or of length (orthographic); w: 1, or
 // 0 where a neighbour is missing.

@@ -10,7 +10,7 @@ pub(crate) struct Normals {
 
 impl Normals {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "normals", "../frame.wgsl", "tile_pixel.wgsl", "normals.wgsl");
+        let module = module!(device, "normals", "../frame.wgsl", "tile_pixel.wgsl", "nearness_at.wgsl", "normals.wgsl");
         Self {
             kernel: Kernel::new(device, frame, &module, "normals", &[Slot::Read, Slot::Read, Slot::Read, Slot::Write]),
         }

@@ -1,15 +1,8 @@
 // The smoothed surface as shading needs it: view-space unit normal, and the thickness interpolated within the fluid.
 
-@group(1) @binding(1) var<storage, read> nearness: array<f32>;
+@group(1) @binding(1) var<storage, read> input: array<f32>; // nearness
 @group(1) @binding(2) var<storage, read> thickness: array<f32>;
 @group(1) @binding(3) var<storage, read_write> surface: array<vec4f>; // normal, thickness in world units
-
-fn nearness_at(at: vec2i) -> f32 {
-    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
-        return 0.0;
-    }
-    return nearness[u32(at.y) * view.size.x + u32(at.x)];
-}
 
 // Slope of the nearness per pixel along an axis. Neighbours within the step of the centre are the same sheet: the central
 // difference where both are or where the steps to both are alike, else the difference to the nearer in depth, else none (one lonely pixel faces the eye).
@@ -75,7 +68,7 @@ fn normals(
     if !pixel.inside {
         return;
     }
-    let center = nearness[pixel.index];
+    let center = input[pixel.index];
     if center <= 0.0 {
         surface[pixel.index] = vec4f(0.0);
         return;

@@ -1,5 +1,5 @@
 // Neighbouring pixels of one sheet of fluid, and the surface's normal half-way between them.
-// Whoever includes this has `nearness_at`, 0 outside the picture.
+// Whoever includes this has nearness_at.wgsl.
 
 // Whether two neighbouring pixels hold fluid no farther apart in depth than `step`, in world units.
 fn is_sheet(a: f32, b: f32, step: f32) -> bool {

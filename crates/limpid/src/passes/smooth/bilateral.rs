@@ -12,8 +12,15 @@ pub(super) struct Bilateral {
 
 impl Bilateral {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module =
-            module!(device, "bilateral", "../../frame.wgsl", "../tile_pixel.wgsl", "taps.wgsl", "bilateral.wgsl");
+        let module = module!(
+            device,
+            "bilateral",
+            "../../frame.wgsl",
+            "../tile_pixel.wgsl",
+            "../nearness_at.wgsl",
+            "taps.wgsl",
+            "bilateral.wgsl"
+        );
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &PIXEL_SLOTS);
         Self { x: kernel("bilateral_x"), y: kernel("bilateral_y"), exact: kernel("bilateral_2d") }
     }

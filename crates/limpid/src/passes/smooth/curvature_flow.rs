@@ -46,6 +46,7 @@ impl CurvatureFlow {
             device,
             "curvature flow",
             "../../frame.wgsl",
+            "../nearness_at.wgsl",
             "../sheet.wgsl",
             "flow.wgsl",
             "segments.wgsl",
@@ -56,6 +57,7 @@ impl CurvatureFlow {
             "explicit curvature flow",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",
+            "../nearness_at.wgsl",
             "../sheet.wgsl",
             "flow.wgsl",
             "curvature_flow_explicit.wgsl"

@@ -36,13 +36,6 @@ const TANGENT: f32 = 0.5;
 // Below this a change farther along the line no longer matters.
 const FORGOTTEN: f32 = 1e-6;
 
-fn nearness_at(at: vec2i) -> f32 {
-    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
-        return 0.0;
-    }
-    return input[u32(at.y) * view.size.x + u32(at.x)];
-}
-
 fn pixel_index(at: vec2i) -> u32 {
     return u32(at.y) * view.size.x + u32(at.x);
 }

@@ -6,13 +6,6 @@
 // Share of the longest stable step that a pixel may take: at 1 a checkerboard of single pixels would persist.
 const STABLE: f32 = 0.9;
 
-fn nearness_at(at: vec2i) -> f32 {
-    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
-        return 0.0;
-    }
-    return input[u32(at.y) * view.size.x + u32(at.x)];
-}
-
 // Difference of the fluxes into and out of a pixel along one axis.
 fn flux_difference(at: vec2i, axis: vec2i) -> f32 {
     let step = sheet_step();

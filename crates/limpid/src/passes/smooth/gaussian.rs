@@ -11,8 +11,15 @@ pub(super) struct Gaussian {
 
 impl Gaussian {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module =
-            module!(device, "gaussian", "../../frame.wgsl", "../tile_pixel.wgsl", "taps.wgsl", "gaussian.wgsl");
+        let module = module!(
+            device,
+            "gaussian",
+            "../../frame.wgsl",
+            "../tile_pixel.wgsl",
+            "../nearness_at.wgsl",
+            "taps.wgsl",
+            "gaussian.wgsl"
+        );
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &PIXEL_SLOTS);
         Self { x: kernel("gaussian_x"), y: kernel("gaussian_y") }
     }

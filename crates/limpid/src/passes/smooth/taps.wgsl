@@ -6,14 +6,6 @@
 // Half-width of the window in standard deviations.
 const REACH: f32 = 3.0;
 
-// 0, no fluid, outside the picture.
-fn nearness_at(at: vec2i) -> f32 {
-    if any(at < vec2i(0)) || any(at >= vec2i(view.size)) {
-        return 0.0;
-    }
-    return input[u32(at.y) * view.size.x + u32(at.x)];
-}
-
 struct Window {
     center: f32,
     falloff: f32, // 1 / (2 sigma^2), per square pixel
