@@ -27,7 +27,9 @@ struct Settings {
     thickness_size: vec2u, // texels of the finest level
     thickness_levels: u32,
     thickness_divisor: f32, // pixels along a texel of the finest level
-    strength: f32, // smoothing length of one iteration, r
+    strength: f32, // smoothing length of one iteration where balls are ellipsoids, r
+    sphere_strength: f32, // and where they are spheres
+    ellipsoid_px: f32, // radius in the host's pixels up to which they are
     max_radius_px: f32,
     range: f32, // r
     clamp: f32, // r
@@ -80,6 +82,17 @@ fn depth_slope(nearness: f32) -> f32 {
 // Pixels that a world length covers at this depth, across the view.
 fn px_per_world(depth: f32) -> f32 {
     return -1.0 / (view.px_step.y * select(1.0, depth, is_perspective()));
+}
+
+// How much of a ball's stretch is drawn at this depth, 0 to 1: what is about a pixel wide has no shape to see.
+fn stretch_share(radius: f32, depth: f32) -> f32 {
+    let radius_px = radius * px_per_world(max(depth, view.near)) * settings.fluid_scale;
+    return clamp(3.0 * (radius_px / max(settings.ellipsoid_px, 1e-9) - 1.0), 0.0, 1.0);
+}
+
+// The standard deviation of one iteration of the filter at this depth, world units.
+fn smoothing_length(depth: f32) -> f32 {
+    return settings.radius * mix(settings.sphere_strength, settings.strength, stretch_share(settings.radius, depth));
 }
 
 // View depth of a value in the host's depth buffer; infinite where that buffer is at an infinite far plane.

@@ -64,6 +64,8 @@ fn settings() {
         thickness_levels,
         thickness_divisor,
         strength,
+        sphere_strength,
+        ellipsoid_px,
         max_radius_px,
         range,
         clamp,

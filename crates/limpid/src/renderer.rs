@@ -9,7 +9,7 @@ use crate::passes::{
 use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
-use crate::{Environment, Error, Optics, Particles, Settings, View};
+use crate::{Environment, Error, Optics, Particles, Settings, Smoothing, View};
 use bytemuck::{Pod, Zeroable};
 
 /// The host's render target that [`Renderer::composite`] draws into.
@@ -110,6 +110,8 @@ pub(crate) struct SettingsUniform {
     pub thickness_levels: u32,
     pub thickness_divisor: f32,
     pub strength: f32,
+    pub sphere_strength: f32,
+    pub ellipsoid_px: f32,
     pub max_radius_px: f32,
     pub range: f32,
     pub clamp: f32,
@@ -396,6 +398,8 @@ pub struct FrameBuffers<'a> {
 fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
     let Frame { particles, settings, scene, .. } = *frame;
     let smoothing = &settings.smoothing;
+    // Variances add up over iterations.
+    let strength = smoothing.strength / (smoothing.iterations as f32).sqrt();
     let fluid_scale = settings.filter_scale.divisor() as f32;
     SettingsUniform {
         radius: particles.reference_radius,
@@ -405,8 +409,9 @@ fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
         thickness_size: targets.thickness.size,
         thickness_levels: level_count(targets.thickness.size),
         thickness_divisor: settings.thickness_scale.divisor() as f32 / fluid_scale,
-        // Variances add up over iterations.
-        strength: smoothing.strength / (smoothing.iterations as f32).sqrt(),
+        strength,
+        sphere_strength: if settings.anisotropy.enabled { strength / Smoothing::ELLIPSOIDS_SHARE } else { strength },
+        ellipsoid_px: settings.anisotropy.min_radius_px,
         max_radius_px: smoothing.max_radius_px as f32 / fluid_scale,
         range: smoothing.range,
         clamp: smoothing.clamp,

@@ -41,7 +41,7 @@ impl Default for Settings {
             thickness_blur: true,
             min_thickness: 0.0,
             anisotropy: Anisotropy::default(),
-            smoothing: Smoothing::default(),
+            smoothing: Smoothing::default().for_ellipsoids(),
             filter_scale: Scale::Full,
             normal_step: 3.0,
             optics: Optics::default(),
@@ -49,12 +49,20 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// The defaults for particles drawn as spheres: the look of the 2009 paper.
+    pub fn spheres() -> Self {
+        let anisotropy = Anisotropy { enabled: false, ..Anisotropy::default() };
+        Self { anisotropy, smoothing: Smoothing::default(), ..Self::default() }
+    }
+}
+
 /// Ellipsoids in place of spheres (Xu et al. 2022, after Yu and Turk 2013): each particle is stretched along the surface as
 /// its neighbours lie, with its volume kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anisotropy {
-    /// Whether to, default no: then particles are spheres. Ellipsoids want less smoothing: see
-    /// [`Smoothing::ELLIPSOIDS_SHARE`].
+    /// Whether to, default yes; else particles are spheres ([`Settings::spheres`]). Ellipsoids want less smoothing:
+    /// [`Smoothing::for_ellipsoids`].
     pub enabled: bool,
     /// Largest ratio of a ball's longest axis to its shortest, 1 to 16, default 4 (Xu et al. 2022, section 4.2).
     pub kappa: f32,
@@ -68,6 +76,10 @@ pub struct Anisotropy {
     /// How far centres move to where the mean of their neighbours has them, which evens the surface out; 0 to 1, default 1
     /// (lambda of Yu and Turk 2013, Eq. 6, but a flat surface is not drawn in).
     pub center_smoothing: f32,
+    /// Particles of a smaller radius than this in the picture, 0 to 1000 pixels, default 1.5, are spheres, and smoothed as
+    /// spheres are, by the strength / [`Smoothing::ELLIPSOIDS_SHARE`]: their shape is nothing to see and costs most of the time
+    /// where there are millions. From here to 4/3 of it they turn into ellipsoids. 0: all are.
+    pub min_radius_px: f32,
     /// Whether to leave out particles that provably cannot show, default yes: the depth is the same to the bit, sooner.
     /// In the thickness they are spheres.
     pub skip_hidden: bool,
@@ -76,11 +88,12 @@ pub struct Anisotropy {
 impl Default for Anisotropy {
     fn default() -> Self {
         Self {
-            enabled: false,
+            enabled: true,
             kappa: 4.0,
             support: 5.3,
             min_neighbours: 22.0,
             center_smoothing: 1.0,
+            min_radius_px: 1.5,
             skip_hidden: true,
         }
     }
@@ -146,8 +159,9 @@ pub enum CurvatureFlow {
 pub struct Smoothing {
     /// Which filter.
     pub filter: Filter,
-    /// Smoothing length in r, 0 to 20, default 1.6 (Gaussian 1.3, bilateral 1.5, curvature flow 2.2): the standard deviation of the
-    /// filter's Gaussian over the surface, the same meaning for every filter.
+    /// Smoothing length in r, 0 to 20, for spheres 1.6 by default (Gaussian 1.3, bilateral 1.5, curvature flow 2.2), for ellipsoids
+    /// [`Smoothing::ELLIPSOIDS_SHARE`] of it: the standard deviation of the filter's Gaussian over the surface, the same
+    /// meaning for every filter.
     pub strength: f32,
     /// How often the filter is applied, 1 to 1000, default 2 (Gaussian and bilateral: 1, curvature flow: 8, or 100 in the explicit form). They
     /// share the smoothing length: more of them do not smooth more.
@@ -177,7 +191,12 @@ impl Smoothing {
     /// spheres.
     pub const ELLIPSOIDS_SHARE: f32 = 0.48;
 
-    /// The defaults of one filter, chosen by docs/quality.md's figures. Narrow-range goes twice over the picture: once
+    /// These settings, meant for spheres, as ellipsoids want them.
+    pub fn for_ellipsoids(self) -> Self {
+        Self { strength: Self::ELLIPSOIDS_SHARE * self.strength, ..self }
+    }
+
+    /// The defaults of one filter for spheres, chosen by docs/quality.md's figures. Narrow-range goes twice over the picture: once
     /// leaves streaks along the axes where a sheet is thin.
     pub const fn of(filter: Filter) -> Self {
         let narrow_range = Self {
@@ -271,6 +290,7 @@ impl Settings {
         within("support", anisotropy.support, 2.0..=12.0, "from 2 to 12")?;
         within("min neighbours", anisotropy.min_neighbours, 1.0..=200.0, "from 1 to 200")?;
         within("center smoothing", anisotropy.center_smoothing, 0.0..=1.0, "from 0 to 1")?;
+        within("min radius", anisotropy.min_radius_px, 0.0..=1000.0, "from 0 to 1000 pixels")?;
         within("strength", smoothing.strength, 0.0..=20.0, "from 0 to 20")?;
         within("iterations", smoothing.iterations as f32, 1.0..=1000.0, "from 1 to 1000")?;
         within("max radius", smoothing.max_radius_px as f32, 1.0..=256.0, "from 1 to 256")?;

@@ -24,7 +24,8 @@ pub fn effective(flags: &Options, file: Option<&Path>) -> Result<Options, Failur
 /// over a scale in the file, and a scale on the command line wins over both.
 fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
     let as_table = |options: &Options| Table::try_from(options).map_err(|error| error.to_string());
-    let (implied, layer) = (as_table(&layer.implied())?, as_table(layer)?);
+    let below: Options = table.clone().try_into().map_err(|error: toml::de::Error| error.message().to_owned())?;
+    let (implied, layer) = (as_table(&layer.implied(&below))?, as_table(layer)?);
     for [one, other] in ALTERNATIVES {
         match (layer.contains_key(one), layer.contains_key(other)) {
             (true, true) => return Err(format!("--{one} and --{other} exclude each other: give one of them")),
@@ -101,6 +102,7 @@ fn as_flag(value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
     const NOT_NUMBERS: [&str; 16] = [
@@ -135,7 +137,7 @@ mod tests {
     fn defaults_are_within_their_ranges_and_give_the_default_settings() {
         let options = effective(&Options::default(), None).unwrap();
         assert_eq!(options, Options::defaults());
-        assert_eq!(options.settings(), limpid::Settings::default());
+        assert_eq!(options.settings(), Settings::default());
     }
 
     #[test]
@@ -149,6 +151,22 @@ mod tests {
         overlay(&mut table, &layer("quality = \"high\"\nthickness-scale = 2\nfilter = \"narrow-range\"")).unwrap();
         assert_eq!(table["thickness-scale"], Value::Integer(2));
         assert_eq!(table["strength"], Table::try_from(Options::defaults()).unwrap()["strength"]);
+    }
+
+    #[test]
+    fn a_filter_smooths_ellipsoids_less_than_spheres() {
+        let strength = |layers: &[&str]| {
+            let mut table = Table::try_from(Options::defaults()).unwrap();
+            layers.iter().for_each(|text| overlay(&mut table, &toml::from_str(text).unwrap()).unwrap());
+            table["strength"].as_float().unwrap() as f32
+        };
+        let bilateral = Smoothing::of(Filter::Bilateral);
+        assert_eq!(strength(&["filter = \"bilateral\""]), bilateral.for_ellipsoids().strength);
+        assert_eq!(strength(&["filter = \"bilateral\"\nanisotropy = \"off\""]), bilateral.strength);
+        assert_eq!(strength(&["filter = \"bilateral\"", "anisotropy = \"off\""]), bilateral.strength);
+        assert_eq!(strength(&["anisotropy = \"off\"", "filter = \"bilateral\""]), bilateral.strength);
+        assert_eq!(strength(&["anisotropy = \"off\"", "anisotropy = \"on\""]), Settings::default().smoothing.strength);
+        assert_eq!(strength(&["anisotropy = \"off\"\nstrength = 3.0"]), 3.0);
     }
 
     #[test]

@@ -27,6 +27,7 @@ const RANGES: &[(&str, Range)] = &[
     ("support", Range::Within(2.0, 12.0)),
     ("min-neighbours", Range::Within(1.0, 200.0)),
     ("center-smoothing", Range::Within(0.0, 1.0)),
+    ("ellipsoid-min-px", Range::Within(0.0, 1000.0)),
     ("strength", Range::Within(0.0, 20.0)),
     ("iterations", Range::Within(1.0, 1000.0)),
     ("filter-max-px", Range::Within(1.0, 256.0)),

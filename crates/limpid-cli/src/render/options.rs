@@ -72,6 +72,9 @@ pub struct Options {
     /// Anisotropy: how far particles are drawn towards the mean of their neighbours; 1 is all the way
     #[arg(long, value_name = "L", allow_hyphen_values = true, help_heading = "Surface")]
     pub center_smoothing: Option<f64>,
+    /// Anisotropy: particles of a smaller radius in the picture, in pixels, are spheres and smoothed as such; 0 stretches all
+    #[arg(long, value_name = "PX", allow_hyphen_values = true, help_heading = "Surface")]
+    pub ellipsoid_min_px: Option<f64>,
     /// How the surface is smoothed
     #[arg(long, value_name = "NAME", value_parser = choice::<Filter>(), help_heading = "Surface")]
     pub filter: Option<Named<Filter>>,
@@ -180,18 +183,9 @@ impl Options {
         }
     }
 
-    /// What the choices of a layer (quality, filter, anisotropy) imply for other options.
-    pub fn implied(&self) -> Self {
-        let form = self.curvature_flow.map(|form| form.0);
-        let smoothing = match (self.filter.map(|filter| filter.0), form) {
-            (None | Some(Filter::CurvatureFlow), Some(form)) => Some(Smoothing::flow(form)),
-            (filter, _) => filter.map(Smoothing::of),
-        };
-        let mut smoothing = smoothing.as_ref().map(Self::of_smoothing).unwrap_or_default();
-        if let Some(Named(true)) = self.anisotropy {
-            let spheres = smoothing.strength.unwrap_or(widen(Smoothing::default().strength));
-            smoothing.strength = Some(spheres * widen(Smoothing::ELLIPSOIDS_SHARE));
-        }
+    /// What the choices of a layer (quality, filter, anisotropy) imply for other options, those of the layers below given.
+    pub fn implied(&self, below: &Self) -> Self {
+        let smoothing = self.implied_smoothing(below);
         let standard = Settings::default();
         let scales = self.quality.map(|quality| match quality.0 {
             Quality::Draft => (Scale::Half, Scale::Quarter),
@@ -203,6 +197,27 @@ impl Options {
             thickness_scale: scales.map(|(_, thickness)| Named(thickness)),
             ..smoothing
         }
+    }
+
+    /// A filter has its own defaults, and each of them one for spheres and one for ellipsoids.
+    fn implied_smoothing(&self, below: &Self) -> Self {
+        let smoothing_of = |options: &Self| {
+            let form = options.curvature_flow.map(|form| form.0);
+            match (options.filter.map(|filter| filter.0), form) {
+                (None | Some(Filter::CurvatureFlow), Some(form)) => Some(Smoothing::flow(form)),
+                (filter, _) => filter.map(Smoothing::of),
+            }
+        };
+        let named = smoothing_of(self);
+        let Some(smoothing) = named.or_else(|| self.anisotropy.and_then(|_| smoothing_of(below))) else {
+            return Self::default();
+        };
+        let smoothing = match self.anisotropy.or(below.anisotropy) {
+            Some(Named(false)) => smoothing,
+            _ => smoothing.for_ellipsoids(),
+        };
+        let implied = Self::of_smoothing(&smoothing);
+        if named.is_some() { implied } else { Self { strength: implied.strength, ..Self::default() } }
     }
 
     fn of_settings(settings: &Settings) -> Self {
@@ -219,6 +234,7 @@ impl Options {
             support: Some(widen(anisotropy.support)),
             min_neighbours: Some(widen(anisotropy.min_neighbours)),
             center_smoothing: Some(widen(anisotropy.center_smoothing)),
+            ellipsoid_min_px: Some(widen(anisotropy.min_radius_px)),
             filter_scale: Some(Named(settings.filter_scale)),
             thickness_scale: Some(Named(settings.thickness_scale)),
             min_thickness: Some(widen(settings.min_thickness)),
@@ -264,6 +280,7 @@ impl Options {
         set(&mut anisotropy.support, self.support);
         set(&mut anisotropy.min_neighbours, self.min_neighbours);
         set(&mut anisotropy.center_smoothing, self.center_smoothing);
+        set(&mut anisotropy.min_radius_px, self.ellipsoid_min_px);
 
         let smoothing = &mut settings.smoothing;
         smoothing.filter = self.filter.map_or(smoothing.filter, |filter| filter.0);

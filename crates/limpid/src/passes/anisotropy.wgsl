@@ -131,6 +131,10 @@ fn anisotropy(
     }
     let index = list[1u + item];
     let particle = sorted[index];
+    let share = stretch_share(particle.w, -(view.view_from_local * vec4f(particle.xyz, 1.0)).z);
+    if share == 0.0 {
+        return; // it is there as a sphere
+    }
     let support = max(support_of(particle.w, grid), 1e-18);
     let moments = moments_of(particle.xyz, support);
 
@@ -147,7 +151,7 @@ fn anisotropy(
     // The kernel averages 1/2 over its support, so this is the number of neighbours in an even cloud; but one who comes or
     // goes does so at weight 0, and nothing pops.
     let neighbours = 2.0 * (weight - 1.0);
-    let trust = clamp(2.0 * neighbours / grid.min_neighbours - 1.0, 0.0, 1.0);
+    let trust = share * clamp(2.0 * neighbours / grid.min_neighbours - 1.0, 0.0, 1.0);
     let largest = max(max(eigen.values.x, eigen.values.y), max(eigen.values.z, 1e-12));
     let values = max(eigen.values / largest, vec3f(1.0 / grid.kappa));
     let axes = pow(values * pow(values.x * values.y * values.z, -1.0 / 3.0), vec3f(trust));

@@ -1,6 +1,6 @@
 // Sorts particles by cell: counting sort into the buckets of grid.wgsl. Where a row of buckets starts in the sorted order
-// depends on thread timing and means nothing; the order within a bucket is that of the particles' indices, so that sums
-// over neighbours have the same bits every time.
+// depends on thread timing and means nothing; the order within a bucket is that of the particles' places, so that sums
+// over neighbours have the same bits every time, also when the particles come in another order.
 
 @group(1) @binding(0) var<uniform> grid: Grid;
 @group(1) @binding(1) var<storage, read> positions: array<vec4f>; // local position, particle radius
@@ -64,7 +64,15 @@ fn scatter(
     }
 }
 
-// Moves each particle to its place: behind those of lower index in its bucket.
+// Whether one particle is before another in a bucket. Those in the same place add the same to any sum.
+fn is_before(a: vec4f, index_a: u32, b: vec4f, index_b: u32) -> bool {
+    var before = index_a < index_b;
+    before = select(a.z < b.z, before, a.z == b.z);
+    before = select(a.y < b.y, before, a.y == b.y);
+    return select(a.x < b.x, before, a.x == b.x);
+}
+
+// Moves each particle to its place in its bucket.
 @compute @workgroup_size(64)
 fn gather(
     @builtin(workgroup_id) group: vec3u,
@@ -84,7 +92,7 @@ fn gather(
     if end - start <= CROWD { // no search reads a larger one
         place = start;
         for (var other = start; other < end; other++) {
-            place += u32(order[other] < index);
+            place += u32(is_before(positions[order[other]], order[other], positions[index], index));
         }
     }
     if settings.density_threshold > 0.0 && densities[index] < settings.density_threshold {

@@ -99,11 +99,12 @@ fn cover_tiles(
     atomicStore(&covered[covered_tile(tile)], least);
 }
 
-// No ellipsoid of the particle reaches farther than this from its place: its longest axis, where the two others are
-// equally short, and the way to a mean of neighbours. A hundredth more covers rounding.
-fn most_reach(radius: f32) -> f32 {
-    let longest = pow(grid.kappa, 2.0 / 3.0) * radius * settings.splat_scale;
-    return 1.01 * longest + 1.01 * MOST_EVENING * grid.center_smoothing * support_of(radius, grid);
+// No ellipsoid of a particle at this depth reaches farther than this from its place: its longest axis, where the two others
+// are equally short, and the way to a mean of neighbours. A hundredth more covers rounding.
+fn most_reach(radius: f32, depth: f32) -> f32 {
+    let share = stretch_share(radius, depth);
+    let longest = pow(grid.kappa, share * 2.0 / 3.0) * radius * settings.splat_scale;
+    return 1.01 * (longest + share * MOST_EVENING * grid.center_smoothing * support_of(radius, grid));
 }
 
 // A drop between the pixel centres of a coarse image shows as one pixel beside them.
@@ -114,7 +115,8 @@ fn show_box(bounds: Ball) -> PixelBox {
 }
 
 fn shape_can_show(particle: vec4f) -> bool {
-    let bounds = sphere((view.view_from_local * vec4f(particle.xyz, 1.0)).xyz, most_reach(particle.w));
+    let center = (view.view_from_local * vec4f(particle.xyz, 1.0)).xyz;
+    let bounds = sphere(center, most_reach(particle.w, -center.z));
     return is_drawn(bounds) && can_show(bounds, show_box(bounds));
 }
 

@@ -25,9 +25,10 @@ pub struct Ellipsoid {
     pub shape: DMat3,
 }
 
-/// Raw depth of every pixel and all ellipsoids.
+/// Raw and smoothed depth and thickness of every pixel and all ellipsoids.
 pub struct Drawn {
     pub depth: Vec<f32>,
+    pub smooth: Vec<f32>,
     pub thickness: Vec<f32>,
     pub ellipsoids: Vec<Ellipsoid>,
 }
@@ -72,7 +73,9 @@ impl Fluid {
         queue.submit([encoder.finish()]);
         let buffers = self.renderer.buffers().unwrap();
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let depth = self.read(buffers.raw_nearness, pixels).into_iter().map(|n| view.depth_of(f32::from_bits(n)));
+        let [depth, smooth] = [buffers.raw_nearness, buffers.nearness].map(|nearness| {
+            self.read(nearness, pixels).into_iter().map(|n| view.depth_of(f32::from_bits(n))).collect()
+        });
         let surface = self.read(buffers.surface, 4 * pixels);
         let thickness = surface.chunks(4).map(|pixel| f32::from_bits(pixel[3]));
         let ellipsoids = self.renderer.ellipsoids().flat_map(|buffers| {
@@ -81,7 +84,7 @@ impl Fluid {
             let pairs = balls.chunks(4).zip(shapes.chunks(4)).map(|(ball, shape)| ellipsoid(ball, shape));
             pairs.collect::<Vec<_>>()
         });
-        Drawn { depth: depth.collect(), thickness: thickness.collect(), ellipsoids: ellipsoids.collect() }
+        Drawn { depth, smooth, thickness: thickness.collect(), ellipsoids: ellipsoids.collect() }
     }
 
     fn read(&self, buffer: &wgpu::Buffer, words: u64) -> Vec<u32> {

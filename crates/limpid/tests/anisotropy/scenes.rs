@@ -78,8 +78,8 @@ pub fn from_above(height: f64) -> View {
     View::orthographic(DVec3::Y * 50.0, DVec3::ZERO, DVec3::Z, height, aspect, 1.0, 200.0)
 }
 
-/// The defaults, with anisotropy on.
+/// The defaults, but for particles of whatever size in the picture.
 pub fn stretched() -> Settings {
-    let spheres = Settings::default();
-    Settings { anisotropy: Anisotropy { enabled: true, ..spheres.anisotropy }, ..spheres }
+    let defaults = Settings::default();
+    Settings { anisotropy: Anisotropy { min_radius_px: 0.0, ..defaults.anisotropy }, ..defaults }
 }

@@ -1,10 +1,10 @@
 //! Ellipsoids against the f64 twin.
 
 use crate::fluid::{Fluid, Particle};
-use crate::scenes::{SIZE, cloud, dam_break, looking, mark_of, marked, slab, stretched};
+use crate::scenes::{SIZE, cloud, dam_break, from_above, looking, mark_of, marked, slab, stretched};
 use crate::twin;
 use glam::{DVec3, Vec3};
-use limpid::{Anisotropy, Settings};
+use limpid::{Anisotropy, Settings, View};
 
 /// Every ellipsoid: nothing is left out.
 fn all() -> Settings {
@@ -14,15 +14,27 @@ fn all() -> Settings {
 
 /// Compares every `step`th particle; `reach` is the farthest that any may look for neighbours.
 fn compare(particles: &[Particle], step: usize, reach: f64) {
-    let settings = all();
-    let drawn = Fluid::new().draw(particles, &looking(DVec3::new(0.0, 30.0, 90.0), DVec3::ZERO), SIZE, &settings);
+    compare_in(&looking(DVec3::new(0.0, 30.0, 90.0), DVec3::ZERO), all(), |_| 1.0, particles, step, reach);
+}
+
+/// `share_of` a radius is how much of its stretch is drawn.
+fn compare_in(
+    view: &View,
+    settings: Settings,
+    share_of: impl Fn(f64) -> f64,
+    particles: &[Particle],
+    step: usize,
+    reach: f64,
+) {
+    let drawn = Fluid::new().draw(particles, view, SIZE, &settings);
     assert_eq!(drawn.ellipsoids.len(), particles.len());
     let mut met = vec![false; particles.len()];
     for ellipsoid in drawn.ellipsoids {
         let index = mark_of(ellipsoid.radius);
         assert!(!std::mem::replace(&mut met[index], true), "particle {index} twice");
         if index.is_multiple_of(step) {
-            let twin = twin::ellipsoid(particles, index, &settings.anisotropy, reach);
+            let share = share_of(f64::from(particles[index].radius));
+            let twin = twin::ellipsoid(particles, index, &settings.anisotropy, reach, share);
             // Beside the sums' own rounding, that of positions far from the origin.
             let off = (ellipsoid.center - twin.center).length() - 2e-7 * twin.center.length();
             let bent = (ellipsoid.shape - twin.shape).to_cols_array().into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -88,7 +100,7 @@ fn each_particle_looks_as_far_as_its_own_radius_says() {
     let drawn = Fluid::new().draw(&scaled, &looking(DVec3::Z * 50.0, DVec3::ZERO), SIZE, &settings);
     for ellipsoid in drawn.ellipsoids.iter().step_by(7) {
         let index = scaled.iter().position(|p| p.radius == ellipsoid.radius).unwrap();
-        let twin = twin::ellipsoid(&scaled, index, &settings.anisotropy, f64::INFINITY);
+        let twin = twin::ellipsoid(&scaled, index, &settings.anisotropy, f64::INFINITY, 1.0);
         assert!((ellipsoid.center - twin.center).length() < 3e-4);
     }
 }
@@ -100,4 +112,16 @@ fn coincident_points_stay_round_and_cost_little() {
     let many = marked(vec![Vec3::ZERO; 50_000]);
     let drawn = Fluid::new().draw(&many, &looking(DVec3::Z * 10.0, DVec3::ZERO), SIZE, &all());
     assert!(drawn.ellipsoids.iter().all(|e| e.center == DVec3::ZERO && e.shape == glam::DMat3::IDENTITY));
+}
+
+/// Between `min_radius_px` and 4/3 of it they turn from spheres into ellipsoids.
+#[test]
+fn small_particles_are_stretched_less() {
+    let particles = marked(slab(8, 4, 0.24));
+    for radius_px in [1.4, 1.625, 1.75, 2.1] {
+        let settings = Settings { anisotropy: Anisotropy { min_radius_px: 1.5, ..all().anisotropy }, ..all() };
+        let view = from_above(f64::from(SIZE[1]) / radius_px);
+        let share_of = |radius: f64| (3.0 * (radius_px * radius / 1.5 - 1.0)).clamp(0.0, 1.0);
+        compare_in(&view, settings, share_of, &particles, 1, 12.0);
+    }
 }

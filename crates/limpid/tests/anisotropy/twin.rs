@@ -13,7 +13,8 @@ pub struct Twin {
     pub flatness: [f64; 3],
 }
 
-pub fn ellipsoid(particles: &[Particle], index: usize, settings: &Anisotropy, reach: f64) -> Twin {
+/// `share` of its stretch is drawn.
+pub fn ellipsoid(particles: &[Particle], index: usize, settings: &Anisotropy, reach: f64, share: f64) -> Twin {
     let particle = &particles[index];
     let support = (f64::from(settings.support) * f64::from(particle.radius)).min(reach);
     let place = particle.position.as_dvec3();
@@ -33,7 +34,7 @@ pub fn ellipsoid(particles: &[Particle], index: usize, settings: &Anisotropy, re
     let (values, vectors) = eigen(covariance);
     let largest = values.iter().copied().fold(1e-12, f64::max);
     let neighbours = 2.0 * (total - 1.0);
-    let trust = (2.0 * neighbours / f64::from(settings.min_neighbours) - 1.0).clamp(0.0, 1.0);
+    let trust = share * (2.0 * neighbours / f64::from(settings.min_neighbours) - 1.0).clamp(0.0, 1.0);
     let clamped = values.map(|value| (value / largest).max(1.0 / f64::from(settings.kappa)));
     let volume: f64 = clamped.iter().product();
     let axes = clamped.map(|value| (value / volume.cbrt()).powf(trust));

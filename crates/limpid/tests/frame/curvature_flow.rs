@@ -10,7 +10,7 @@ use limpid::{CurvatureFlow, Settings, Smoothing, View};
 const FORMS: [CurvatureFlow; 2] = [CurvatureFlow::Implicit, CurvatureFlow::Explicit];
 
 fn smoothed(cloud: &Cloud, view: View, size: [u32; 2], smoothing: Smoothing) -> Rendered {
-    render(&shot_of(cloud, view, size, Settings { smoothing, ..Settings::default() }))
+    render(&shot_of(cloud, view, size, Settings { smoothing, ..Settings::spheres() }))
 }
 
 fn dam_break_view() -> View {
@@ -31,7 +31,7 @@ fn compare(what: &str, cloud: &Cloud, view: View) {
         assert!(same, "{what}: the silhouette moved");
         let off = Difference::of_depth(&rendered.depth, &expected);
         off.assert(&format!("{what}, {form:?}"), 2e-3 * cloud.radius(), 1e-2 * cloud.radius());
-        let step = f64::from(Settings::default().normal_step) * cloud.radius();
+        let step = f64::from(Settings::spheres().normal_step) * cloud.radius();
         let expected = mean_curvature(&camera, &f64s(&rendered.depth), step);
         let curvatures = rendered.curvature.iter().zip(&expected);
         let off = Difference::new(curvatures.map(|(rendered, expected)| f64::from(*rendered) - expected));

@@ -5,7 +5,7 @@ use crate::reference::{Camera, windowed};
 use limpid::{Filter, Settings, Smoothing, View};
 
 fn compare(what: &str, cloud: &Cloud, view: View, smoothing: Smoothing) {
-    let rendered = render(&shot_of(cloud, view, SIZE, Settings { smoothing, ..Settings::default() }));
+    let rendered = render(&shot_of(cloud, view, SIZE, Settings { smoothing, ..Settings::spheres() }));
     let raw: Vec<f64> = rendered.raw_depth.iter().map(|depth| f64::from(*depth)).collect();
     let expected = windowed(&Camera::new(view, SIZE), &raw, &smoothing, cloud.radius());
     let same = rendered.depth.iter().zip(&expected).all(|(a, b)| a.is_finite() == b.is_finite());

@@ -9,8 +9,8 @@ fn view() -> View {
     looking([1.8, 1.2, 2.3], [0.5, 0.42, 0.5], SIZE)
 }
 
-fn drop_shot(cloud: &Cloud) -> Shot<'_> {
-    Shot { background: Background::Scene, ..shot_of(cloud, view(), SIZE, Settings::default()) }
+fn drop_shot(cloud: &Cloud, settings: Settings) -> Shot<'_> {
+    Shot { background: Background::Scene, ..shot_of(cloud, view(), SIZE, settings) }
 }
 
 fn assert_same_bits(left: &Rendered, right: &Rendered) {
@@ -26,12 +26,12 @@ fn assert_same_bits(left: &Rendered, right: &Rendered) {
 #[test]
 fn the_same_twice_gives_the_same_bits() {
     let cloud = Cloud::sphere_drop();
-    let first = render(&drop_shot(&cloud));
+    let first = render(&drop_shot(&cloud, Settings::default()));
     // Something else in between leaves no trace, whatever its size.
     let other = Cloud::random(60, 500, [[-1.0, -1.0, -4.0], [1.0, 1.0, -0.5]], [0.01, 0.4]);
     render(&shot_of(&other, forward(60.0, 0.05, SIZE), SIZE, Settings::default()));
     render(&shot_of(&other, forward(60.0, 0.05, [64, 80]), [64, 80], Settings::default()));
-    assert_same_bits(&first, &render(&drop_shot(&cloud)));
+    assert_same_bits(&first, &render(&drop_shot(&cloud, Settings::default())));
 }
 
 #[test]
@@ -97,12 +97,12 @@ impl Motion {
 /// ball is seen; what sums and differences of depth amplify has wider bounds.
 fn assert_moves_with(motion: Motion, compare_color: bool) {
     let cloud = Cloud::sphere_drop();
-    let shot = drop_shot(&cloud);
+    let shot = drop_shot(&cloud, Settings::spheres());
     let moved_cloud = motion.cloud(&cloud);
     let moved = Shot {
         environment: motion.environment(shot.environment),
         background: Background::Scene,
-        ..shot_of(&moved_cloud, motion.view(shot.view), SIZE, Settings::default())
+        ..shot_of(&moved_cloud, motion.view(shot.view), SIZE, Settings::spheres())
     };
     let (still, moved) = (render(&shot), render(&moved));
     let strays = still.depth.iter().zip(&moved.depth).filter(|(a, b)| a.is_finite() != b.is_finite()).count();
@@ -151,7 +151,7 @@ fn orientation_means_nothing() {
 #[test]
 fn no_particles_are_an_empty_scene() {
     let nothing = Cloud::default();
-    let rendered = render(&drop_shot(&nothing));
+    let rendered = render(&drop_shot(&nothing, Settings::default()));
     assert_eq!(rendered.covered(), 0);
     assert!(rendered.thickness.iter().all(|thickness| *thickness == 0.0));
     assert!(rendered.rgba.chunks(4).all(|pixel| pixel[3] == 255), "the background is there");

@@ -21,7 +21,7 @@ fn assert_refused(shot: &Shot<'_>, says: &str) {
 #[test]
 fn particles() {
     let bad = |cloud: &Cloud, says| {
-        assert_refused(&shot_of(cloud, forward(45.0, 0.1, SIZE), SIZE, Settings::default()), says)
+        assert_refused(&shot_of(cloud, forward(45.0, 0.1, SIZE), SIZE, Settings::spheres()), says)
     };
     for value in [f32::NAN, f32::INFINITY] {
         bad(&Cloud::uniform(vec![[0.0; 3], [0.0, value, 0.0]], 0.1), "particle 1 is not finite");
@@ -36,14 +36,14 @@ fn particles() {
 #[test]
 fn arrays_of_different_lengths() {
     let cloud = one();
-    let mut shot = shot_of(&cloud, forward(45.0, 0.1, SIZE), SIZE, Settings::default());
+    let mut shot = shot_of(&cloud, forward(45.0, 0.1, SIZE), SIZE, Settings::spheres());
     shot.particles.radius = Radius::Each(&[0.1, 0.1]);
     assert_refused(&shot, "2 radii for 1 positions");
 }
 
 #[test]
 fn settings() {
-    let (settings, smoothing, optics) = (Settings::default(), Smoothing::default(), Optics::default());
+    let (settings, smoothing, optics) = (Settings::spheres(), Smoothing::default(), Optics::default());
     let smoothed = |smoothing| Settings { smoothing, ..settings };
     let lit = |optics| Settings { optics, ..settings };
     let bad = [
@@ -84,7 +84,7 @@ fn cameras() {
     ];
     let cloud = one();
     for (says, view) in bad {
-        assert_refused(&shot_of(&cloud, view, SIZE, Settings::default()), says);
+        assert_refused(&shot_of(&cloud, view, SIZE, Settings::spheres()), says);
     }
 }
 
@@ -92,7 +92,7 @@ fn cameras() {
 fn sizes() {
     let cloud = one();
     for size in [[0, 10], [10, 0], [1 << 20, 1 << 20]] {
-        let shot = Shot { size, ..shot_of(&cloud, forward(45.0, 0.1, SIZE), SIZE, Settings::default()) };
+        let shot = Shot { size, ..shot_of(&cloud, forward(45.0, 0.1, SIZE), SIZE, Settings::spheres()) };
         assert_refused(&shot, "x");
     }
 }

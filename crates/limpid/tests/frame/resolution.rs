@@ -22,9 +22,9 @@ fn compare(scale: Scale) {
     let size = LOW.map(|side| side * factor);
     let cloud = Cloud::sphere_drop();
     let view = looking([1.6, 0.9, 1.9], [0.5, 0.25, 0.5], size);
-    let small = Settings { thickness_scale: Scale::Full, ..Settings::default() };
+    let small = Settings { thickness_scale: Scale::Full, ..Settings::spheres() };
     let low = render(&shot_of(&cloud, view, LOW, small));
-    let scaled = Settings { thickness_scale: scale, filter_scale: scale, ..Settings::default() };
+    let scaled = Settings { thickness_scale: scale, filter_scale: scale, ..Settings::spheres() };
     let picture = render(&shot_of(&cloud, view, size, scaled));
 
     let step = f64::from(scaled.normal_step) * cloud.radius();
@@ -59,7 +59,7 @@ fn the_surface_is_that_of_full_resolution() {
     let size = [640, 360];
     let cloud = Cloud::sphere_drop();
     let shot = |filter_scale| {
-        let settings = Settings { filter_scale, ..Settings::default() };
+        let settings = Settings { filter_scale, ..Settings::spheres() };
         render(&shot_of(&cloud, looking([0.9, 0.5, 1.0], [0.5, 0.15, 0.5], size), size, settings))
     };
     let full = shot(Scale::Full);
@@ -102,7 +102,7 @@ fn small_drops_survive() {
         let at = px_world * f64::from(shift) * 0.5;
         let cloud = Cloud::uniform(vec![[at as f32, at as f32, -1.0]], px_world as f32);
         for filter_scale in [Scale::Half, Scale::Quarter] {
-            let shown = render(&shot_of(&cloud, view, size, Settings { filter_scale, ..Settings::default() }));
+            let shown = render(&shot_of(&cloud, view, size, Settings { filter_scale, ..Settings::spheres() }));
             assert!(shown.color.iter().any(|color| color.w > 0.01), "{filter_scale:?}, {shift} half pixels");
         }
     }

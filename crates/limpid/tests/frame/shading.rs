@@ -61,7 +61,7 @@ fn compare(what: &str, settings: Settings, background: Background, floor: f64) {
 #[test]
 fn every_background() {
     for background in [Background::Transparent, Background::White, Background::Black, Background::Scene] {
-        compare(&format!("{background:?}"), Settings::default(), background, -0.01);
+        compare(&format!("{background:?}"), Settings::spheres(), background, -0.01);
     }
 }
 
@@ -73,13 +73,13 @@ fn other_liquids() {
         Optics { specular: 3.0, shininess: 20.0, ..Optics::default() },
     ];
     for (i, optics) in optics.into_iter().enumerate() {
-        compare(&format!("liquid {i}"), Settings { optics, ..Settings::default() }, Background::Scene, -0.01);
+        compare(&format!("liquid {i}"), Settings { optics, ..Settings::spheres() }, Background::Scene, -0.01);
     }
 }
 
 #[test]
 fn thin_fluid_shows_the_background() {
-    let settings = Settings { min_thickness: 6.0, ..Settings::default() };
+    let settings = Settings { min_thickness: 6.0, ..Settings::spheres() };
     compare("min thickness", settings, Background::Scene, -0.01);
     let cloud = Cloud::sphere_drop();
     let rendered = render(&shot(&cloud, settings, Background::Transparent, -0.01));

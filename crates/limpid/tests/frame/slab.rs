@@ -43,7 +43,7 @@ fn bumps(depth: &[f32], inner: &[usize]) -> Difference {
 
 fn raw_and_smooth(cloud: &Cloud, view: View, strength: f32) -> [Difference; 2] {
     let smoothing = Smoothing { strength, ..Smoothing::default() };
-    let rendered = render(&shot_of(cloud, view, SIZE, Settings { smoothing, ..Settings::default() }));
+    let rendered = render(&shot_of(cloud, view, SIZE, Settings { smoothing, ..Settings::spheres() }));
     assert_same_silhouette(&rendered);
     let inner = inner_pixels(view);
     [bumps(&rendered.raw_depth, &inner), bumps(&rendered.depth, &inner)]
@@ -77,7 +77,7 @@ fn a_jittered_lattice_becomes_smooth() {
 /// Thickness over the slab's depth along each inner pixel's ray.
 fn relative_thickness(view: View, splat_scale: f32, thickness_scale: Scale) -> Vec<f64> {
     let settings =
-        Settings { splat_scale, thickness_scale, smoothing: Smoothing::of(Filter::None), ..Settings::default() };
+        Settings { splat_scale, thickness_scale, smoothing: Smoothing::of(Filter::None), ..Settings::spheres() };
     let rendered = render(&shot_of(&slab(0.0), view, SIZE, settings));
     let camera = Camera::new(view, SIZE);
     let depth = |i: usize| 2.0 * RADIUS * f64::from(LAYERS) * camera.ray(camera.center_of(i)).direction.length();

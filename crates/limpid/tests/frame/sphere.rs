@@ -17,7 +17,7 @@ fn beside_dust(center: DVec3, drawn_radius: f64) -> Cloud {
 }
 
 fn settings() -> Settings {
-    Settings { thickness_scale: Scale::Full, smoothing: Smoothing::of(Filter::None), ..Settings::default() }
+    Settings { thickness_scale: Scale::Full, smoothing: Smoothing::of(Filter::None), ..Settings::spheres() }
 }
 
 /// Depth and chord of the ball through each pixel; None where it is missed, or so close to its rim that float32 cannot

@@ -27,7 +27,7 @@ impl Shadow {
         let eye = center + 2.0 * extent * sun;
         let view = View::orthographic(eye, center, north, 2.0 * extent, 1.0, 0.02 * extent, 4.0 * extent);
         let camera = Camera::new(view, [TEXELS; 2]);
-        let settings = Settings { splat_scale: 3.0, thickness_scale: Scale::Full, ..Settings::default() };
+        let settings = Settings { splat_scale: 3.0, thickness_scale: Scale::Full, ..Settings::spheres() };
         let depth = liquid(&camera, &balls_of(particles, &camera, &settings), &settings, None);
         Self { camera, depth, absorption_per_world, radius }
     }

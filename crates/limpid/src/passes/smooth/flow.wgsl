@@ -26,9 +26,9 @@ fn conductance(at: vec2i, axis: vec2i, a: LinePixel, b: LinePixel) -> f32 {
     return inverseSqrt(dot(normal, normal));
 }
 
-// What a difference of fluxes adds to the nearness of a pixel in one step of the diffusion time (strength r)^2, per axis.
+// What a difference of fluxes adds to the nearness of a pixel in one step of the diffusion time smoothing_length^2, per axis.
 fn mobility(nearness: f32) -> vec2f {
     let scale = select(1.0, nearness, is_perspective());
-    let sigma_px = settings.strength * settings.radius * scale / view.px_step;
+    let sigma_px = smoothing_length(depth_of(nearness)) * scale / view.px_step;
     return 0.5 * sigma_px * sigma_px * scale;
 }

@@ -49,7 +49,8 @@ fn start_side() -> Side {
 }
 
 fn sigma_px(center: f32) -> f32 {
-    return settings.strength * settings.radius * px_per_world(depth_of(center));
+    let depth = depth_of(center);
+    return smoothing_length(depth) * px_per_world(depth);
 }
 
 fn filter_axis(pixel: TilePixel, axis: vec2i) {

@@ -19,7 +19,8 @@ fn window_around(pixel: TilePixel) -> Window {
         return Window(0.0, 0.0, 0.0, 0, true);
     }
     let center = input[pixel.index];
-    let sigma = settings.strength * settings.radius * px_per_world(depth_of(center));
+    let depth = depth_of(center);
+    let sigma = smoothing_length(depth) * px_per_world(depth);
     if min(center, sigma) <= 0.0 {
         return Window(center, 0.0, 0.0, 0, true);
     }

@@ -59,5 +59,5 @@ fn aspect(size: [u32; 2]) -> f64 {
 
 /// The splats as they are.
 pub fn unsmoothed() -> Settings {
-    Settings { smoothing: Smoothing::of(Filter::None), ..Settings::default() }
+    Settings { smoothing: Smoothing::of(Filter::None), ..Settings::spheres() }
 }
