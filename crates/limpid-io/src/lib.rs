@@ -26,7 +26,7 @@ use std::path::Path;
 
 pub use error::ReadError;
 pub use format::Format;
-pub use particles::{Attribute, Bounds, ParticleSet};
+pub use particles::{Attribute, Bounds, ParticleSet, PolygonMesh};
 pub use radius::{Radius, RadiusSource};
 pub use sequence::{Frame, Sequence, expand};
 pub use values::Values;
@@ -37,4 +37,11 @@ pub fn read(path: &Path) -> Result<ParticleSet, ReadError> {
     let format = Format::of_input(&input, path)?;
     let raw = format.read(&mut input).map_err(|fault| fault.at(path, format))?;
     raw.finish(path, format)
+}
+
+/// Reads a PLY file with its faces. That indices are in range is for the caller to check.
+pub fn read_ply_mesh(path: &Path) -> Result<PolygonMesh, ReadError> {
+    let mut input = input::Input::open(path).map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
+    let (raw, triangles) = ply::read_mesh(&mut input).map_err(|fault| fault.at(path, Format::Ply))?;
+    Ok(PolygonMesh { vertices: raw.finish(path, Format::Ply)?, triangles })
 }

@@ -40,6 +40,15 @@ pub struct Attribute {
     pub values: Values,
 }
 
+/// A mesh of triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolygonMesh {
+    /// Positions and everything else of the vertices.
+    pub vertices: ParticleSet,
+    /// Indices of vertices, as in the file.
+    pub triangles: Vec<[u32; 3]>,
+}
+
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {

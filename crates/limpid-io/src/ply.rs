@@ -1,4 +1,5 @@
-//! PLY: ASCII and binary of either byte order, any property types and order. Only the element `vertex` is read.
+//! PLY: ASCII and binary of either byte order, any property types and order. Of its elements, `vertex` is read, and
+//! `face` where a mesh is asked for.
 
 use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
@@ -31,6 +32,62 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
         skip_element(input, encoding, &element)?;
     }
     broken!("it has no element \"vertex\"")
+}
+
+/// Vertices and triangles; larger polygons are split into fans.
+pub(crate) fn read_mesh(input: &mut Input) -> Result<(Raw, Vec<[u32; 3]>), Fault> {
+    let (encoding, elements) = read_header(input)?;
+    let mut vertices = None;
+    let mut triangles = Vec::new();
+    for element in elements {
+        match &element.name[..] {
+            "vertex" => vertices = Some(read_vertices(input, encoding, element)?),
+            "face" => read_faces(input, encoding, &element, &mut triangles)?,
+            _ => skip_element(input, encoding, &element)?,
+        }
+    }
+    match vertices {
+        Some(vertices) => Ok((vertices, triangles)),
+        None => broken!("it has no element \"vertex\""),
+    }
+}
+
+fn read_faces(
+    input: &mut Input,
+    encoding: Encoding,
+    face: &Element,
+    triangles: &mut Vec<[u32; 3]>,
+) -> Result<(), Fault> {
+    let corners = |property: &Property| matches!(&property.name[..], "vertex_indices" | "vertex_index");
+    if !face.properties.iter().any(|property| property.list.is_some() && corners(property)) {
+        return broken!("its element \"face\" has no list \"vertex_indices\"");
+    }
+    for _ in 0..face.count {
+        for property in &face.properties {
+            match property.list {
+                Some(length) if corners(property) => {
+                    let length = input.length(length, encoding)?;
+                    let mut index =
+                        || input.length(property.scalar, encoding).map(|index| index.min(u32::MAX.into()) as u32);
+                    // A face of one or two corners is none.
+                    let mut polygon = [0; 3];
+                    for corner in 0..length {
+                        let at = if corner < 3 { corner as usize } else { 2 };
+                        if corner > 2 {
+                            polygon[1] = polygon[2];
+                        }
+                        polygon[at] = index()?;
+                        if corner > 1 {
+                            triangles.push(polygon);
+                        }
+                    }
+                }
+                Some(length) => skip_list(input, encoding, length, property.scalar)?,
+                None => input.skip_values(property.scalar, encoding, 1)?,
+            }
+        }
+    }
+    Ok(())
 }
 
 fn read_header(input: &mut Input) -> Result<(Encoding, Vec<Element>), Fault> {

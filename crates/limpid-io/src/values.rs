@@ -180,12 +180,25 @@ impl Input {
         self.skip(count * scalar.size() as u64)
     }
 
-    /// One whole number, as the length of a list or string.
+    /// One whole number of at least 0, as an index or the length of a list.
     pub fn length(&mut self, scalar: Scalar, encoding: Encoding) -> Result<u64, Fault> {
-        let length = self.values(scalar, encoding, 1)?.get(0);
-        if length < 0.0 || length.fract() != 0.0 {
-            return broken!("a list cannot have {length} entries");
+        if encoding == Encoding::Ascii {
+            return parse(self.word()?);
         }
-        Ok(length as u64)
+        let mut bytes = [0; 8];
+        let bytes = &mut bytes[..scalar.size()];
+        self.exact(bytes)?;
+        if encoding == Encoding::Big {
+            bytes.reverse();
+        }
+        let unsigned = bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte));
+        let negative = bytes.last().is_some_and(|byte| *byte >= 0x80);
+        match scalar {
+            Scalar::F32 | Scalar::F64 => broken!("a list has a length that is no whole number"),
+            Scalar::I8 | Scalar::I16 | Scalar::I32 | Scalar::I64 if negative => {
+                broken!("a list has a negative length or index")
+            }
+            _ => Ok(unsigned),
+        }
     }
 }
