@@ -189,7 +189,7 @@ impl Default for Smoothing {
 impl Smoothing {
     /// Share of a filter's default strength that makes ellipsoids ([`Anisotropy`]) about as smooth as all of it makes
     /// spheres.
-    pub const ELLIPSOIDS_SHARE: f32 = 0.48;
+    pub const ELLIPSOIDS_SHARE: f32 = 0.5;
 
     /// These settings, meant for spheres, as ellipsoids want them.
     pub fn for_ellipsoids(self) -> Self {

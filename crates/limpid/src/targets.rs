@@ -7,8 +7,8 @@ use crate::{Error, Scale, Settings};
 /// `frame.wgsl`'s `BLOCK`.
 const BLOCK_PX: u32 = 32;
 const TILE_PX: u32 = 8;
-/// `covered.wgsl`'s `TILE`.
-const COVERED_TILE_PX: u32 = 4;
+/// `covered.wgsl`'s `TILE`, and how wide it is on its other levels.
+const COVERED_TILES_PX: [u32; 4] = [4, 8, 16, 32];
 
 /// Bytes per pixel of the largest image, `surface` or `shaded`.
 const LARGEST_PIXEL: u64 = 16;
@@ -22,7 +22,7 @@ pub(crate) struct Targets {
     pub thickness_scale: Scale,
     /// f32 nearness (frame.wgsl) after the splat.
     pub raw: wgpu::Buffer,
-    /// u32 nearness bits per block, then per tile, that all its pixels reach (`covered.wgsl`).
+    /// u32 nearness bits per block, then per tile of each width, that all its pixels reach (`covered.wgsl`).
     pub covered: wgpu::Buffer,
     /// Indirect dispatch, count and positions of the tiles that hold fluid.
     pub tiles: wgpu::Buffer,
@@ -115,6 +115,7 @@ impl Targets {
         }
         let size = filter_scale.of(picture_size);
         let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let covered_tiles = COVERED_TILES_PX.map(|px| cells(size, px));
         let image = |label, bytes| storage_buffer(device, label, bytes);
         Ok(Self {
             picture_size,
@@ -122,7 +123,7 @@ impl Targets {
             size,
             thickness_scale,
             raw: image("raw nearness", 4 * pixels),
-            covered: image("covered blocks", 4 * (cells(size, BLOCK_PX) + cells(size, COVERED_TILE_PX))),
+            covered: image("covered blocks", 4 * (cells(size, BLOCK_PX) + covered_tiles.iter().sum::<u64>())),
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
@@ -146,9 +147,14 @@ impl Targets {
             && self.thickness_scale == settings.thickness_scale
     }
 
-    /// Tiles of `covered.wgsl`.
+    /// The smallest tiles of `covered.wgsl`.
     pub fn covered_tile_count(&self) -> u64 {
-        cells(self.size, COVERED_TILE_PX)
+        cells(self.size, COVERED_TILES_PX[0])
+    }
+
+    /// Its widest.
+    pub fn widest_covered_tile_count(&self) -> u64 {
+        cells(self.size, COVERED_TILES_PX[COVERED_TILES_PX.len() - 1])
     }
 
     /// Tiles that cover the fluid's images.

@@ -12,6 +12,7 @@ pub(crate) struct Visible {
     find_fronts: Kernel,
     list_fronts: Kernel,
     cover_tiles: Kernel,
+    cover_wide_tiles: Kernel,
     list_rest: Kernel,
     count_list: Kernel,
     fronts: GrowBuffer,
@@ -47,6 +48,7 @@ impl Visible {
             find_fronts: kernel("find_fronts"),
             list_fronts: kernel("list_fronts"),
             cover_tiles: kernel("cover_tiles"),
+            cover_wide_tiles: kernel("cover_wide_tiles"),
             list_rest: kernel("list_rest"),
             count_list: kernel("count_list"),
             fronts: GrowBuffer::new("fronts"),
@@ -87,6 +89,8 @@ impl Visible {
             }
             Stage::Rest => {
                 recorder.run("anisotropy", &self.cover_tiles, &resources, &Grid::Items(tiles, 64));
+                let wide_tiles = targets.widest_covered_tile_count();
+                recorder.run("anisotropy", &self.cover_wide_tiles, &resources, &Grid::Items(wide_tiles, 64));
                 recorder.run("anisotropy", &self.list_rest, &resources, &particles);
             }
         }

@@ -34,7 +34,7 @@ fn center_of(particle: vec4f) -> Center {
     let level = u32(clamp(ceil(log2(max(width, 1.0))), 0.0, f32(LEVELS - 1u)));
     let seen = depth > view.near && all(px >= vec2f(0.0)) && all(px < vec2f(view.size)) && particle.w > 0.0;
     let tile = vec2i(select(vec2f(0.0), px, seen)) / TILE;
-    let tiles = tile_counts();
+    let tiles = tile_counts(0);
     let shifted = tile >> vec2u(level);
     return Center(depth, level * u32(tiles.x * tiles.y) + u32(shifted.y * tiles.x + shifted.x), seen);
 }
@@ -84,7 +84,8 @@ fn cover_tiles(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let item = i32(item_index(group, groups, lane, 64u));
-    let tile = vec2i(item % tile_counts().x, item / tile_counts().x);
+    let columns = tile_counts(0).x;
+    let tile = vec2i(item % columns, item / columns);
     let low = tile * TILE;
     let high = min(low + TILE, vec2i(view.size));
     if low.y >= high.y {
@@ -96,7 +97,38 @@ fn cover_tiles(
             least = min(least, nearness[u32(y) * view.size.x + u32(x)]);
         }
     }
-    atomicStore(&covered[covered_tile(tile)], least);
+    atomicStore(&covered[covered_level(0) + item], least);
+}
+
+// Wider tiles from the narrower, a lane for each of the widest.
+@compute @workgroup_size(64)
+fn cover_wide_tiles(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let item = i32(item_index(group, groups, lane, 64u));
+    let widest = tile_counts(TILE_LEVELS - 1);
+    if item >= widest.x * widest.y {
+        return;
+    }
+    let place = vec2i(item % widest.x, item / widest.x);
+    for (var level = 1; level < TILE_LEVELS; level++) {
+        let finer = tile_counts(level - 1);
+        let tiles = tile_counts(level);
+        let low = place << vec2u(u32(TILE_LEVELS - 1 - level));
+        let high = min((place + 1) << vec2u(u32(TILE_LEVELS - 1 - level)), tiles);
+        for (var y = low.y; y < high.y; y++) {
+            for (var x = low.x; x < high.x; x++) {
+                var least = 0xffffffffu;
+                for (var k = 0; k < 4; k++) {
+                    let part = min(2 * vec2i(x, y) + vec2i(k & 1, k >> 1u), finer - 1);
+                    least = min(least, atomicLoad(&covered[covered_level(level - 1) + part.y * finer.x + part.x]));
+                }
+                atomicStore(&covered[covered_level(level) + y * tiles.x + x], least);
+            }
+        }
+    }
 }
 
 // No ellipsoid of a particle at this depth reaches farther than this from its place: its longest axis, where the two others
