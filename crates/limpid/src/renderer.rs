@@ -244,7 +244,7 @@ impl Renderer {
     ) {
         let recorder =
             &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
-        self.shadow.encode(recorder, queue, &self.thickness, particles, environment, &self.nothing.depth);
+        self.shadow.encode(recorder, queue, &self.thickness, particles, environment);
         let absorption = optics.absorption.per_world(particles.reference_radius);
         self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius });
     }
@@ -272,13 +272,14 @@ impl Renderer {
             color: frame.scene.color.unwrap_or(&self.nothing.color),
             depth: frame.scene.depth.unwrap_or(&self.nothing.depth),
         };
+        let in_scene = frame.scene.depth.is_some();
         let targets = match self.targets.take() {
-            Some(targets) if targets.fit(frame.size, settings) => targets,
+            Some(targets) if targets.fit(frame.size, settings, in_scene) => targets,
             old => {
                 // Freed before the new ones are made: they may not fit beside each other.
                 self.prepared = None;
                 drop(old);
-                Targets::new(device, frame.size, settings.filter_scale, settings.thickness_scale)?
+                Targets::new(device, frame.size, settings.filter_scale, settings.thickness_scale, in_scene)?
             }
         };
 
@@ -302,12 +303,12 @@ impl Renderer {
             &particles.chunks
         };
         self.tiles.encode(recorder, &targets);
-        self.thickness.splat(recorder, "splat-thickness", balls, scene.depth, &targets.thickness);
+        self.thickness.splat(recorder, "splat-thickness", balls, frame.scene.depth, &targets.thickness);
         if settings.thickness_blur {
             self.thickness.blur(recorder, &targets);
         }
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
-        self.normals.encode(recorder, smoothed, &targets);
+        self.normals.encode(recorder, smoothed, scene.depth, &targets);
         self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), &targets);
         let fluid =
             FluidImages { raw: &targets.raw, nearness: smoothed, surface: &targets.surface, shaded: &targets.shaded };

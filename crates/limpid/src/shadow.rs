@@ -31,7 +31,7 @@ impl Shadow {
             frame_group: bind(device, frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             view,
             settings,
-            map: ThicknessImages::new(device, [SHADOW_TEXELS; 2]),
+            map: ThicknessImages::new(device, [SHADOW_TEXELS; 2], false),
         }
     }
 
@@ -53,7 +53,6 @@ impl Shadow {
         thickness: &Thickness,
         particles: &Particles,
         environment: &Environment,
-        no_scene: &wgpu::TextureView,
     ) {
         let size = self.map.size;
         let view = environment.sun_view().uniform(size, Scale::Full, particles.origin);
@@ -69,7 +68,7 @@ impl Shadow {
         };
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
-        thickness.splat(recorder, "shadow", &particles.chunks, no_scene, &self.map);
+        thickness.splat(recorder, "shadow", &particles.chunks, None, &self.map);
     }
 }
 

@@ -20,6 +20,8 @@ pub(crate) struct Targets {
     /// The fluid's own pixels: the size of all images below but `thickness` and `picture`.
     pub size: [u32; 2],
     pub thickness_scale: Scale,
+    /// Whether the frame has a scene's depth.
+    pub in_scene: bool,
     /// f32 nearness (frame.wgsl) after the splat.
     pub raw: wgpu::Buffer,
     /// u32 nearness bits per block, then per tile of each width, that all its pixels reach (`covered.wgsl`).
@@ -64,19 +66,37 @@ pub(crate) struct ThicknessImages {
     pub sums: wgpu::Buffer,
     /// u32: which levels hold something.
     pub levels_used: wgpu::Buffer,
-    /// f32 thickness in world units: the first is the result.
+    /// f32 thickness in world units: the first is the result. Negative: `hidden.wgsl`.
     pub images: [wgpu::Buffer; 2],
+    pub occlusion: Occlusion,
+}
+
+/// What the host's scene hides of the liquid. Without a scene: stand-ins that nothing reads.
+pub(crate) struct Occlusion {
+    /// Two f32 per texel of the pyramid: nearest and farthest depth of the scene (`scene_range.wgsl`).
+    pub ranges: wgpu::Buffer,
+    /// u32 fixed-point sums between the two, and a bit for liquid behind both.
+    pub between: wgpu::Buffer,
+    /// `hidden.wgsl`'s `Hidden` for each texel of the finest level.
+    pub hidden: wgpu::Buffer,
 }
 
 impl ThicknessImages {
-    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+    /// `in_scene`: whether a scene may hide some of the liquid.
+    pub fn new(device: &wgpu::Device, size: [u32; 2], in_scene: bool) -> Self {
         let texels = u64::from(size[0]) * u64::from(size[1]);
+        let hideable = |count: u64| if in_scene { count } else { 0 };
         let image = |label, words: u64| storage_buffer(device, label, 4 * words);
         Self {
             size,
             sums: image("thickness sums", pyramid_texels(size)),
             levels_used: image("thickness levels used", 1),
             images: [image("thickness a", texels), image("thickness b", texels)],
+            occlusion: Occlusion {
+                ranges: image("scene ranges", hideable(2 * pyramid_texels(size))),
+                between: image("thickness between", hideable(pyramid_texels(size))),
+                hidden: image("hidden thickness", hideable(2 * texels)),
+            },
         }
     }
 }
@@ -104,6 +124,7 @@ impl Targets {
         picture_size: [u32; 2],
         filter_scale: Scale,
         thickness_scale: Scale,
+        in_scene: bool,
     ) -> Result<Self, Error> {
         let limits = device.limits();
         let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
@@ -128,7 +149,8 @@ impl Targets {
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
             segments: [Segments::new(device, size[1], size[0]), Segments::new(device, size[0], size[1])],
-            thickness: ThicknessImages::new(device, thickness_scale.of(picture_size)),
+            in_scene,
+            thickness: ThicknessImages::new(device, thickness_scale.of(picture_size), in_scene),
             surface: image("surface", 16 * pixels),
             shaded: image("shaded", 16 * pixels),
             picture: (filter_scale != Scale::Full).then(|| PictureImages {
@@ -140,11 +162,12 @@ impl Targets {
         })
     }
 
-    /// Whether these serve a frame of that size and those settings.
-    pub fn fit(&self, picture_size: [u32; 2], settings: &Settings) -> bool {
+    /// Whether these serve a frame of that size and those settings, with or without a scene's depth.
+    pub fn fit(&self, picture_size: [u32; 2], settings: &Settings, in_scene: bool) -> bool {
         self.picture_size == picture_size
             && self.filter_scale == settings.filter_scale
             && self.thickness_scale == settings.thickness_scale
+            && self.in_scene == in_scene
     }
 
     /// The smallest tiles of `covered.wgsl`.

@@ -10,19 +10,36 @@ pub(crate) struct Normals {
 
 impl Normals {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "normals", "../frame.wgsl", "tile_pixel.wgsl", "nearness_at.wgsl", "normals.wgsl");
-        Self {
-            kernel: Kernel::new(device, frame, &module, "normals", &[Slot::Read, Slot::Read, Slot::Read, Slot::Write]),
-        }
+        let module = module!(
+            device,
+            "normals",
+            "../frame.wgsl",
+            "tile_pixel.wgsl",
+            "nearness_at.wgsl",
+            "hidden.wgsl",
+            "../scene_depth.wgsl",
+            "normals.wgsl"
+        );
+        let slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Read, Slot::Read, Slot::Depth];
+        Self { kernel: Kernel::new(device, frame, &module, "normals", &slots) }
     }
 
     /// Writes `targets.surface` for the smoothed nearness in `smoothed`.
-    pub fn encode(&self, recorder: &mut Recorder<'_>, smoothed: &wgpu::Buffer, targets: &Targets) {
+    pub fn encode(
+        &self,
+        recorder: &mut Recorder<'_>,
+        smoothed: &wgpu::Buffer,
+        scene_depth: &wgpu::TextureView,
+        targets: &Targets,
+    ) {
         let resources = [
             targets.tiles.as_entire_binding(),
             smoothed.as_entire_binding(),
             targets.thickness.images[0].as_entire_binding(),
             targets.surface.as_entire_binding(),
+            targets.thickness.occlusion.hidden.as_entire_binding(),
+            targets.thickness.occlusion.ranges.as_entire_binding(),
+            wgpu::BindingResource::TextureView(scene_depth),
         ];
         recorder.run("normals", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));
     }

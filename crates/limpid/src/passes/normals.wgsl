@@ -1,8 +1,15 @@
 // The smoothed surface as shading needs it: view-space unit normal, and the thickness interpolated within the fluid.
+// Each pixel gets the liquid before its own depth of the scene.
 
 @group(1) @binding(1) var<storage, read> input: array<f32>; // nearness
 @group(1) @binding(2) var<storage, read> thickness: array<f32>;
 @group(1) @binding(3) var<storage, read_write> surface: array<vec4f>; // normal, thickness in world units
+@group(1) @binding(4) var<storage, read> hidden: array<Hidden>;
+@group(1) @binding(5) var<storage, read> ranges: array<vec2f>;
+@group(1) @binding(6) var scene_depth: texture_depth_2d;
+
+// Weight of a texel whose liquid ends elsewhere than the pixel's: for want of better only.
+const STRANGER: f32 = 1e-4;
 
 // Slope of the nearness per pixel along an axis. Neighbours within the step of the centre are the same sheet: the central
 // difference where both are or where the steps to both are alike, else the difference to the nearer in depth, else none (one lonely pixel faces the eye).
@@ -37,23 +44,57 @@ fn normal_of(at: vec2i, center: f32, slope_px: vec2f) -> vec3f {
     return normalize(vec3f(-slope * view.far, 1.0));
 }
 
+// What a pixel sees of a texel's liquid, given the pixel's depth of the scene, and whether that can be told.
+struct Seen {
+    thickness: f32,
+    known: bool,
+}
+
+// `whole`: nothing is hidden from the pixel, as far as its own texel knows.
+fn seen(index: u32, value: f32, scene: f32, whole: bool) -> Seen {
+    if value >= 0.0 && whole {
+        return Seen(value, true);
+    }
+    let range = ranges[index];
+    let slack = SAME_DEPTH * settings.radius;
+    let in_range = scene > range.x - slack && scene < range.y + slack;
+    if value >= 0.0 {
+        return Seen(value, in_range);
+    }
+    let part = range_part(range, scene);
+    let uncut = part == 1.0 && !is_cut(value, index);
+    return Seen(mix(hidden[index].near, -value, part), in_range || uncut);
+}
+
 // Bilinear, without the texels that hold no liquid.
 fn thickness_at(at: vec2i) -> f32 {
-    let texel = (vec2f(at) + 0.5) / settings.thickness_divisor - 0.5;
+    let px = vec2f(at) + 0.5;
+    let texel = px / settings.thickness_divisor - 0.5;
     let low = floor(texel);
     let part = texel - low;
+    let scene = scene_depth_at(px);
+    let own_at = vec2u(clamp(texel + 0.5, vec2f(0.0), vec2f(settings.thickness_size) - 1.0));
+    let own_index = own_at.y * settings.thickness_size.x + own_at.x;
+    let own = thickness[own_index];
+    var whole = own >= 0.0;
+    if !whole {
+        whole = scene >= ranges[own_index].y && !is_cut(own, own_index);
+    }
     var sum = 0.0;
     var weights = 0.0;
     for (var corner = 0; corner < 4; corner++) {
         let offset = vec2i(corner & 1, corner >> 1u);
         let texel_at = clamp(vec2i(low) + offset, vec2i(0), vec2i(settings.thickness_size) - 1);
-        let value = thickness[u32(texel_at.y) * settings.thickness_size.x + u32(texel_at.x)];
-        let along = select(1.0 - part, part, offset == vec2i(1));
-        let weight = along.x * along.y;
-        if value > 0.0 {
-            sum += weight * value;
-            weights += weight;
+        let index = u32(texel_at.y) * settings.thickness_size.x + u32(texel_at.x);
+        let value = thickness[index];
+        if value == 0.0 {
+            continue;
         }
+        let along = select(1.0 - part, part, offset == vec2i(1));
+        let liquid = seen(index, value, scene, whole);
+        let weight = along.x * along.y * select(STRANGER, 1.0, liquid.known);
+        sum += weight * liquid.thickness;
+        weights += weight;
     }
     return select(0.0, sum / weights, weights > 0.0);
 }

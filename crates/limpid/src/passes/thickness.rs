@@ -1,4 +1,4 @@
-//! Thickness: `thickness.wgsl`, `thickness_collapse.wgsl` and `thickness_blur.wgsl`.
+//! Thickness: `scene_range.wgsl`, `thickness.wgsl`, `thickness_collapse.wgsl` and `thickness_blur.wgsl`.
 
 use super::{ellipsoids_constant, module};
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
@@ -17,7 +17,28 @@ pub(crate) fn pyramid_texels(size: [u32; 2]) -> u64 {
     (0..level_count(size)).map(level).sum()
 }
 
+/// Of any picture: each level halves the one below, from at most 2^20 texels.
+const MOST_LEVELS: u32 = 20;
+
+fn level_number(device: &wgpu::Device, level: u32) -> wgpu::Buffer {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("level"),
+        size: 16,
+        usage: wgpu::BufferUsages::UNIFORM,
+        mapped_at_creation: true,
+    });
+    if let Ok(mut words) = buffer.get_mapped_range_mut(..) {
+        words.slice(..).copy_from_slice(bytemuck::bytes_of(&[level, 0, 0, 0]));
+    }
+    buffer.unmap();
+    buffer
+}
+
 pub(crate) struct Thickness {
+    scene_range: Kernel,
+    coarser_range: Kernel,
+    /// The number of each level of a pyramid, as `scene_range.wgsl` binds it.
+    level_numbers: Vec<wgpu::Buffer>,
     spheres: Kernel,
     ellipsoids: Kernel,
     collapse: Kernel,
@@ -35,36 +56,60 @@ impl Thickness {
             "../ball.wgsl",
             "balls.wgsl",
             "thickness_levels.wgsl",
-            "../scene_depth.wgsl",
             "thickness.wgsl"
         );
-        let collapse =
-            module!(device, "thickness collapse", "../frame.wgsl", "thickness_levels.wgsl", "thickness_collapse.wgsl");
-        let blur = module!(device, "thickness blur", "../frame.wgsl", "thickness_blur.wgsl");
-        let images = [Slot::Read, Slot::Read, Slot::Write];
-        let splat_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Depth];
+        let scene_range = module!(
+            device,
+            "scene range",
+            "../frame.wgsl",
+            "thickness_levels.wgsl",
+            "../scene_depth.wgsl",
+            "scene_range.wgsl"
+        );
+        let collapse = module!(
+            device,
+            "thickness collapse",
+            "../frame.wgsl",
+            "thickness_levels.wgsl",
+            "hidden.wgsl",
+            "thickness_collapse.wgsl"
+        );
+        let blur = module!(device, "thickness blur", "../frame.wgsl", "hidden.wgsl", "thickness_blur.wgsl");
+        let range_slots = [Slot::Depth, Slot::Write, Slot::Uniform];
+        let splat_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Read, Slot::Write];
+        let collapse_slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Read, Slot::Read, Slot::Write];
+        let blur_slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Read, Slot::Read];
         let splat = |ellipsoids| {
             let constants = [ellipsoids_constant(ellipsoids)];
             Kernel::with_constants(device, frame, &splat, "splat", &splat_slots, &constants)
         };
         Self {
+            scene_range: Kernel::new(device, frame, &scene_range, "finest", &range_slots),
+            coarser_range: Kernel::new(device, frame, &scene_range, "coarser", &range_slots),
+            level_numbers: (0..MOST_LEVELS).map(|level| level_number(device, level)).collect(),
             spheres: splat(false),
             ellipsoids: splat(true),
-            collapse: Kernel::new(device, frame, &collapse, "collapse", &images),
-            blur_x: Kernel::new(device, frame, &blur, "blur_x", &images),
-            blur_y: Kernel::new(device, frame, &blur, "blur_y", &images),
+            collapse: Kernel::new(device, frame, &collapse, "collapse", &collapse_slots),
+            blur_x: Kernel::new(device, frame, &blur, "blur_x", &blur_slots),
+            blur_y: Kernel::new(device, frame, &blur, "blur_y", &blur_slots),
         }
     }
 
-    /// Sums the chords of all particles and writes the thickness, not blurred, into the first of `thickness.images`.
+    /// Sums the chords of all particles, as far as the scene lets them be seen, and writes the thickness, not blurred,
+    /// into the first of `thickness.images`.
     pub fn splat(
         &self,
         recorder: &mut Recorder<'_>,
         name: &str,
         particles: &[Chunk],
-        scene_depth: &wgpu::TextureView,
+        scene_depth: Option<&wgpu::TextureView>,
         thickness: &ThicknessImages,
     ) {
+        let occlusion = &thickness.occlusion;
+        if let Some(scene_depth) = scene_depth {
+            recorder.clear(&occlusion.between);
+            self.scene_ranges(recorder, name, scene_depth, thickness);
+        }
         recorder.clear(&thickness.sums);
         recorder.clear(&thickness.levels_used);
         for chunk in particles {
@@ -76,7 +121,8 @@ impl Thickness {
                 shapes,
                 thickness.sums.as_entire_binding(),
                 thickness.levels_used.as_entire_binding(),
-                wgpu::BindingResource::TextureView(scene_depth),
+                occlusion.ranges.as_entire_binding(),
+                occlusion.between.as_entire_binding(),
             ];
             recorder.run(name, kernel, &resources, &Grid::Items(chunk.count, 64));
         }
@@ -84,15 +130,44 @@ impl Thickness {
             thickness.sums.as_entire_binding(),
             thickness.levels_used.as_entire_binding(),
             thickness.images[0].as_entire_binding(),
+            occlusion.between.as_entire_binding(),
+            occlusion.ranges.as_entire_binding(),
+            occlusion.hidden.as_entire_binding(),
         ];
         recorder.run(name, &self.collapse, &resources, &Grid::Image(thickness.size));
     }
 
+    /// Writes the ranges of depth of the scene, level by level.
+    fn scene_ranges(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &str,
+        scene_depth: &wgpu::TextureView,
+        thickness: &ThicknessImages,
+    ) {
+        let levels = self.level_numbers.iter().zip(0..level_count(thickness.size));
+        for (number, level) in levels {
+            let kernel = if level == 0 { &self.scene_range } else { &self.coarser_range };
+            let resources = [
+                wgpu::BindingResource::TextureView(scene_depth),
+                thickness.occlusion.ranges.as_entire_binding(),
+                number.as_entire_binding(),
+            ];
+            recorder.run(name, kernel, &resources, &Grid::Image(thickness.size.map(|side| side.div_ceil(1 << level))));
+        }
+    }
+
     /// Blurs the first of `targets.thickness.images` within the fluid.
     pub fn blur(&self, recorder: &mut Recorder<'_>, targets: &Targets) {
-        let [first, second] = &targets.thickness.images;
+        let ThicknessImages { images: [first, second], occlusion, .. } = &targets.thickness;
         for (kernel, input, output) in [(&self.blur_x, first, second), (&self.blur_y, second, first)] {
-            let resources = [targets.raw.as_entire_binding(), input.as_entire_binding(), output.as_entire_binding()];
+            let resources = [
+                targets.raw.as_entire_binding(),
+                input.as_entire_binding(),
+                output.as_entire_binding(),
+                occlusion.hidden.as_entire_binding(),
+                occlusion.ranges.as_entire_binding(),
+            ];
             recorder.run("thickness-blur", kernel, &resources, &Grid::Image(targets.thickness.size));
         }
     }

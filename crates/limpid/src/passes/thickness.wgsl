@@ -6,11 +6,15 @@
 
 @group(1) @binding(3) var<storage, read_write> sums: array<atomic<u32>>;
 @group(1) @binding(4) var<storage, read_write> levels_used: atomic<u32>; // bit l: level l holds something
-@group(1) @binding(5) var scene_depth: texture_depth_2d;
+@group(1) @binding(5) var<storage, read> ranges: array<vec2f>; // scene_range.wgsl's
+// Liquid between the two depths of a texel's range; HIDDEN: there is more behind them.
+@group(1) @binding(6) var<storage, read_write> between: array<atomic<u32>>;
 
 const MAX_TEXELS: f32 = 20.0;
 // Sums stop growing here, far below overflow, and read as this: half a million r of liquid.
 const FULL: u32 = 0x80000000u;
+const BETWEEN_FULL: u32 = 0x40000000u;
+const HIDDEN: u32 = 0x80000000u;
 
 @compute @workgroup_size(64)
 fn splat(
@@ -45,12 +49,25 @@ fn splat(
         for (var x = box.min.x; x <= box.max.x; x++) {
             let at = (vec2f(f32(x), f32(y)) + 0.5) * px;
             let chord = ball_chord(ball, pixel_ray(at));
+            if chord.length <= 0.0 {
+                continue;
+            }
+            let texel = first + u32(y) * size.x + u32(x);
+            let counts = u32(min(chord.length * counts_per_world, 1048576.0) + 0.5);
             // Liquid never overlaps an obstacle, only its drawn balls do: a chord counts whole where its middle is free.
-            if chord.length > 0.0 && 0.5 * (chord.enter + chord.leave) < scene_depth_at(at) {
-                let texel = first + u32(y) * size.x + u32(x);
+            let middle = 0.5 * (chord.enter + chord.leave);
+            var range = vec2f(3.4e38);
+            if settings.has_scene_depth != 0u {
+                range = ranges[texel];
+            }
+            if middle < range.x {
                 if atomicLoad(&sums[texel]) < FULL {
-                    atomicAdd(&sums[texel], u32(min(chord.length * counts_per_world, 1048576.0) + 0.5));
+                    atomicAdd(&sums[texel], counts);
                 }
+            } else if middle >= range.y {
+                atomicOr(&between[texel], HIDDEN);
+            } else if (atomicLoad(&between[texel]) & ~HIDDEN) < BETWEEN_FULL {
+                atomicAdd(&between[texel], counts);
             }
         }
     }

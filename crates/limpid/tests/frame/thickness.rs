@@ -13,7 +13,7 @@ fn expected(cloud: &Cloud, view: View, settings: &Settings, rendered: &Rendered)
     let as_f64 = |depth: &[f32]| depth.iter().map(|depth| f64::from(*depth)).collect::<Vec<_>>();
     let sums = liquid(&camera, &balls, settings, None);
     let image = blurred(&camera, sums, &as_f64(&rendered.raw_depth), cloud.radius());
-    upsampled(&camera, &image, &as_f64(&rendered.depth))
+    upsampled(&camera, &image, &as_f64(&rendered.depth), None, cloud.radius())
 }
 
 /// Differences in r, where there is fluid.

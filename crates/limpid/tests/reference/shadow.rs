@@ -35,7 +35,7 @@ impl Shadow {
     /// Share of the sun's light that reaches a point of the world.
     pub fn light(&self, point: DVec3) -> DVec3 {
         let px = self.camera.px_of(self.camera.view.view_from_world.transform_point3(point)) - 0.5;
-        let texel = |x: f64, y: f64| self.depth.at(x as i64, y as i64).unwrap_or(0.0);
+        let texel = |x: f64, y: f64| self.depth.index(x as i64, y as i64).map_or(0.0, |i| self.depth.values[i]);
         let DVec2 { x, y } = px.floor();
         let part = px - px.floor();
         let row = |y: f64| texel(x, y) * (1.0 - part.x) + texel(x + 1.0, y) * part.x;
