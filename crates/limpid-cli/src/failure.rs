@@ -13,6 +13,9 @@ pub enum Failure {
     /// A particle file or sequence cannot be read.
     #[error(transparent)]
     Read(#[from] limpid_io::ReadError),
+    /// A mesh cannot be read.
+    #[error(transparent)]
+    Mesh(#[from] limpid_mesh::Error),
     /// The picture cannot be drawn.
     #[error(transparent)]
     Graphics(#[from] limpid_headless::Error),

@@ -1,7 +1,10 @@
 //! A whole picture, off screen: the scene, the fluid in it, the display transform, everything read back.
 
 use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, aov, readback};
-use limpid::{Backdrop, BackdropFrame, Display, Frame, Particles, PassTime, Profiler, Renderer, Scene, TargetFormat};
+use limpid::{
+    Backdrop, BackdropFrame, Bodies, Display, FloorShadow, Frame, Layer, Look, Particles, PassTime, Profiler, Renderer,
+    Scene, TargetFormat,
+};
 use std::time::Instant;
 
 /// Linear light: the scene, then the fluid over it.
@@ -14,6 +17,7 @@ pub struct Offscreen {
     gpu: Gpu,
     renderer: Renderer,
     backdrop: Backdrop,
+    bodies: Bodies,
     display: Display,
     images: Option<Images>,
 }
@@ -78,10 +82,11 @@ impl Offscreen {
         let guard = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let renderer = Renderer::new(&gpu.device, &target);
         let backdrop = Backdrop::new(&gpu.device, &target);
+        let bodies = Bodies::new(&gpu.device, &gpu.queue, &target);
         let display = Display::new(&gpu.device, SHOWN);
         match pollster::block_on(guard.pop()) {
             Some(error) => Err(Error::Device(error.to_string())),
-            None => Ok(Self { gpu, renderer, backdrop, display, images: None }),
+            None => Ok(Self { gpu, renderer, backdrop, bodies, display, images: None }),
         }
     }
 
@@ -178,20 +183,19 @@ impl Offscreen {
             images.scene.size(),
         );
         let transparent = shot.background == Background::Transparent;
+        let has_bodies = !shot.bodies.is_empty();
+        let is_solid = shot.background == Background::Scene || shot.bodies.iter().any(|body| body.look != Look::Glass);
         let frame = Frame {
             particles,
             view: &shot.view,
             size: shot.size,
             settings: &shot.settings,
             environment: &shot.environment,
-            scene: Scene {
-                color: (!transparent).then_some(&scene),
-                depth: (shot.background == Background::Scene).then_some(&depth),
-            },
+            scene: Scene { color: (!transparent || has_bodies).then_some(&scene), depth: is_solid.then_some(&depth) },
         };
         let prepared = self.renderer.prepare(device, queue, &mut encoder, &frame);
         if prepared.is_ok() {
-            self.draw_fluid(&mut encoder, &picture, &depth);
+            self.draw_fluid(&mut encoder, shot, &picture, &depth);
             self.draw_display(&mut encoder, shot, &picture, &view_of(&images.shown));
             if let Some(profiler) = self.renderer.profiler() {
                 profiler.resolve(&mut encoder);
@@ -225,21 +229,21 @@ impl Offscreen {
             timestamp_writes: self.renderer.profiler().and_then(|profiler| profiler.render("scene")),
             ..Default::default()
         });
+        let Gpu { device, queue, .. } = &self.gpu;
+        let shadow = self.renderer.floor_shadow();
+        let frame = surroundings_of(shot, shadow.as_ref());
         if shot.background == Background::Scene {
-            let shadow = self.renderer.floor_shadow();
-            let frame = BackdropFrame {
-                view: &shot.view,
-                size: shot.size,
-                environment: &shot.environment,
-                shadow: shadow.as_ref(),
-            };
-            self.backdrop.draw(&self.gpu.device, &self.gpu.queue, &mut pass, &frame);
+            self.backdrop.draw(device, queue, &mut pass, &frame);
+        }
+        for layer in [Layer::Opaque, Layer::FarGlass] {
+            self.bodies.draw(device, queue, &mut pass, &frame, shot.bodies, layer);
         }
     }
 
     fn draw_fluid(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
+        shot: &Shot<'_>,
         picture: &wgpu::TextureView,
         depth: &wgpu::TextureView,
     ) {
@@ -251,6 +255,16 @@ impl Offscreen {
             ..Default::default()
         });
         self.renderer.composite(&mut pass);
+        let Gpu { device, queue, .. } = &self.gpu;
+        let shadow = self.renderer.floor_shadow();
+        self.bodies.draw(
+            device,
+            queue,
+            &mut pass,
+            &surroundings_of(shot, shadow.as_ref()),
+            shot.bodies,
+            Layer::NearGlass,
+        );
     }
 
     fn draw_display(
@@ -300,6 +314,10 @@ impl Offscreen {
     fn wait(&self) -> Result<(), Error> {
         readback::wait(&self.gpu.device)
     }
+}
+
+fn surroundings_of<'a>(shot: &'a Shot<'_>, shadow: Option<&'a FloorShadow<'a>>) -> BackdropFrame<'a> {
+    BackdropFrame { view: &shot.view, size: shot.size, environment: &shot.environment, shadow }
 }
 
 fn depth_attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<f32>) -> wgpu::RenderPassDepthStencilAttachment<'_> {

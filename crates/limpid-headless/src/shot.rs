@@ -1,7 +1,7 @@
 //! What to draw, and what comes of it.
 
 use crate::Image;
-use limpid::{Environment, ParticleSlices, PassTime, Settings, ToneMap, View};
+use limpid::{Body, Environment, ParticleSlices, PassTime, Settings, ToneMap, View};
 
 /// What is behind the fluid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,6 +42,8 @@ pub struct Shot<'a> {
     pub environment: Environment,
     /// What is behind it.
     pub background: Background,
+    /// What stands in it and before it. Behind, beside and within the fluid they are drawn whatever the background is.
+    pub bodies: &'a [Body<'a>],
     /// Multiplies the light before it is shown, default 1.
     pub exposure: f32,
 }

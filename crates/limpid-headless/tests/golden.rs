@@ -64,6 +64,7 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
         settings: (golden.settings)(),
         environment: Environment::around(bounds.min, bounds.max, bounds.min.y, DVec3::Y, framing.eye),
         background: golden.background,
+        bodies: &[],
         exposure: 1.0,
     };
     let picture = offscreen.render(&shot, &[]).unwrap();

@@ -27,6 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         settings: Settings::default(),
         environment: Environment::around(bounds.min, bounds.max, bounds.min.y - radius, DVec3::Y, framing.eye),
         background: Background::Scene,
+        bodies: &[],
         exposure: 1.0,
     };
     let mut offscreen = Offscreen::new(Gpu::open(None)?)?;

@@ -1,5 +1,6 @@
 //! Structs shared with WGSL lie in memory as naga lays them out.
 
+use crate::bodies::BodyUniform;
 use crate::display::DisplayUniform;
 use crate::environment::EnvironmentUniform;
 use crate::passes::OpticsUniform;
@@ -112,4 +113,21 @@ fn environment() {
 fn display() {
     let rust = rust_layout!(DisplayUniform { exposure, tone_map });
     assert_same(rust, wgsl_layout(include_str!("display.wgsl"), "Display"));
+}
+
+#[test]
+fn body() {
+    let rust = rust_layout!(BodyUniform {
+        clip_from_mesh,
+        eye_from_mesh,
+        normal_from_mesh,
+        base_color,
+        metallic,
+        roughness,
+        alpha,
+        padding,
+    });
+    let source =
+        concat!(include_str!("frame.wgsl"), include_str!("environment.wgsl"), include_str!("bodies/body.wgsl"));
+    assert_same(rust, wgsl_layout(source, "Body"));
 }

@@ -4,6 +4,7 @@
 //! A frame is [`Renderer::prepare`] (all compute passes) and [`Renderer::composite`] (one triangle, colour and depth).
 
 mod backdrop;
+mod bodies;
 mod display;
 mod environment;
 mod error;
@@ -20,6 +21,7 @@ mod targets;
 mod view;
 
 pub use backdrop::{Backdrop, BackdropFrame};
+pub use bodies::{Bodies, Body, Layer, Look, Material, Mesh, PartSlices, TextureSlices};
 pub use display::{Display, ToneMap};
 pub use environment::Environment;
 pub use error::Error;

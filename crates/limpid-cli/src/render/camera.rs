@@ -2,10 +2,11 @@
 
 use super::frame::FrameParticles;
 use super::options::Options;
+use super::props::Props;
 use super::survey::Survey;
 use crate::failure::Failure;
 use glam::{DVec3, dvec3};
-use limpid::{Bounds, Environment, Framing, View};
+use limpid::{Body, Bounds, Environment, Framing, View};
 use limpid_headless::Shot;
 
 /// The near plane in particle radii: closer than this to the eye nothing can be told apart. Depths are kept linear and
@@ -34,7 +35,7 @@ struct Pose {
 
 impl Stage {
     /// Sets camera, floor and sun around the fluid.
-    pub fn of(options: &Options, survey: &Survey) -> Result<Self, Failure> {
+    pub fn of(options: &Options, survey: &Survey, props: &Props) -> Result<Self, Failure> {
         let unit = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
         let radius_world = survey.radius_world();
         let bounds = survey.bounds.unwrap_or(unit);
@@ -44,14 +45,16 @@ impl Stage {
         let grown = bounds.grown(radius_world);
         let pose = pose(options, &grown, &extent)?;
         let view = view(options, pose, &extent, radius_world);
-        // The lowest particles stand on the floor.
+        // The lowest particles stand on the floor, and whatever stays where it is stands above it.
         let floor = bounds.min.dot(up) - radius_world;
-        let environment = Environment::around(grown.min, grown.max, floor, up, pose.eye);
+        let floor = props.lowest(up).map_or(floor, |lowest| lowest.min(floor));
+        let lit = props.bounds().map_or(grown, |props| props.union(grown));
+        let environment = Environment::around(lit.min, lit.max, floor, up, pose.eye);
         Ok(Self { view, environment })
     }
 
     /// A frame on this stage.
-    pub fn shot<'a>(&self, options: &Options, particles: &'a FrameParticles) -> Shot<'a> {
+    pub fn shot<'a>(&self, options: &Options, particles: &'a FrameParticles, bodies: &'a [Body<'a>]) -> Shot<'a> {
         Shot {
             particles: particles.slices(),
             view: self.view,
@@ -59,6 +62,7 @@ impl Stage {
             settings: options.settings(),
             environment: self.environment,
             background: options.background(),
+            bodies,
             exposure: options.exposure(),
         }
     }

@@ -105,7 +105,9 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 16] = [
+    const NOT_NUMBERS: [&str; 18] = [
+        "mesh",
+        "bodies",
         "input",
         "output",
         "size",

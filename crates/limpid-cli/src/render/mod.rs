@@ -8,6 +8,7 @@ mod limits;
 mod options;
 mod outputs;
 mod progress;
+mod props;
 mod size;
 mod survey;
 mod timings;
@@ -24,6 +25,7 @@ use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
 use options::Options;
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
+use props::Props;
 use std::path::{Path, PathBuf};
 use survey::Survey;
 
@@ -51,20 +53,23 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let sequence = limpid_io::expand(inputs)?;
     let outputs = Outputs::plan(&options, &sequence.frames)?;
     outputs.check()?;
+    let props = Props::load(&options, &sequence.frames)?;
     let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
 
     let survey = Survey::of(&sequence.frames, &options)?;
-    let stage = Stage::of(&options, &survey)?;
+    let stage = Stage::of(&options, &survey, &props)?;
+    let meshes = props.upload(offscreen.gpu());
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
     for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
         let set = survey.read(&frame.path)?;
         let particles = FrameParticles::of(set, &survey)?;
-        let shot = stage.shot(&options, &particles);
+        let bodies = props.at(frame, &meshes);
+        let shot = stage.shot(&options, &particles, &bodies);
         let wanted = Wanted { show: options.show.map(|aov| aov.0), aovs: &outputs.aovs };
         render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
         if index == 0 {
             // Only now: a failure so far is one line.
-            for warning in sequence.warnings.iter().chain(&survey.warnings) {
+            for warning in sequence.warnings.iter().chain(&survey.warnings).chain(&props.warnings) {
                 console::warn(warning);
             }
             if let (false, Some(radius)) = (quiet, survey.radius_note()) {

@@ -145,6 +145,14 @@ pub struct Options {
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
     pub shininess: Option<f64>,
 
+    /// Mesh to draw beside the fluid, in world units: .obj, .gltf, .glb, .ply or .stl; may be given several times. One whose
+    /// file name a body of --bodies has is that body's mesh
+    #[arg(long, value_name = "FILE", action = ArgAction::Append, help_heading = "Scene")]
+    pub mesh: Option<Vec<String>>,
+    /// Bodies and tank walls to draw, with their places in every frame
+    #[arg(long, value_name = "FILE.json", help_heading = "Scene")]
+    pub bodies: Option<String>,
+
     /// Draw one buffer instead of the shaded fluid
     #[arg(long, value_name = "NAME", value_parser = choice::<Aov>(), help_heading = "More output")]
     pub show: Option<Named<Aov>>,

@@ -39,6 +39,7 @@ pub fn shot_of<'a>(cloud: &'a Cloud, view: View, size: [u32; 2], settings: Setti
         settings,
         environment: Environment::around(DVec3::splat(-1.0), DVec3::splat(1.0), -1.0, DVec3::Y, dvec3(2.0, 1.0, 3.0)),
         background: Background::Transparent,
+        bodies: &[],
         exposure: 1.0,
     }
 }

@@ -1,0 +1,310 @@
+//! Rigid bodies and glass tanks, drawn as a scene for hosts that have none of their own: `body.wgsl`, `glass.wgsl`.
+
+mod mesh;
+mod rims;
+
+pub use mesh::{Material, Mesh, PartSlices, TextureSlices};
+
+use crate::backdrop::BackdropFrame;
+use crate::environment::EnvironmentUniform;
+use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
+use crate::passes::module;
+use crate::renderer::{SettingsUniform, TargetFormat, frame_layout};
+use crate::view::ViewUniform;
+use crate::{Scale, View};
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat4, DVec3, Mat4};
+use mesh::{ATTRIBUTES, Part, Vertex};
+
+/// A mesh at its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<'a> {
+    /// What it is.
+    pub mesh: &'a Mesh,
+    /// Where it is: any affine transform, mirrored ones too.
+    pub world_from_mesh: DMat4,
+    /// What it is made of.
+    pub look: Look,
+}
+
+/// What a body is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Look {
+    /// The materials of its mesh.
+    #[default]
+    Own,
+    /// The same in this base colour, linear: the mesh's textures and its vertices' colours multiply it.
+    Colored([f32; 3]),
+    /// Thin panes, as of a tank: drawn behind what they hold where they turn their outside away from the eye, else before
+    /// it. They cast no shadow.
+    Glass,
+}
+
+/// Which part of a picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    /// Opaque bodies: colour and depth, before the fluid.
+    Opaque,
+    /// Glass behind what it holds: after the opaque bodies, before the fluid.
+    FarGlass,
+    /// Glass before what it holds: after [`crate::Renderer::composite`].
+    NearGlass,
+}
+
+/// Own colour of a pane, and of a rim.
+const PANE_ALPHA: f32 = 0.025;
+const RIM_ALPHA: f32 = 0.5;
+
+/// `body.wgsl`'s `Body`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct BodyUniform {
+    pub clip_from_mesh: Mat4,
+    pub eye_from_mesh: Mat4,
+    pub normal_from_mesh: Mat4,
+    pub base_color: [f32; 4],
+    pub metallic: f32,
+    pub roughness: f32,
+    pub alpha: f32,
+    pub padding: f32,
+}
+
+/// Draws bodies in the light of an [`crate::Environment`]. Writes reversed depth, as [`crate::Backdrop`] does.
+pub struct Bodies {
+    opaque: wgpu::RenderPipeline,
+    far_pane: wgpu::RenderPipeline,
+    near_pane: wgpu::RenderPipeline,
+    rim: wgpu::RenderPipeline,
+    frame_group: wgpu::BindGroup,
+    light_layout: wgpu::BindGroupLayout,
+    body_layout: wgpu::BindGroupLayout,
+    sampler: wgpu::Sampler,
+    blank: wgpu::TextureView,
+    no_shadow: wgpu::Buffer,
+    view: wgpu::Buffer,
+    environment: wgpu::Buffer,
+}
+
+impl Bodies {
+    /// Builds the pipelines for one kind of target.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, target: &TargetFormat) -> Self {
+        let module = module!(device, "bodies", "../frame.wgsl", "../environment.wgsl", "body.wgsl", "glass.wgsl");
+        let frame = frame_layout(device);
+        let light_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("light"),
+            entries: &slot_entries(&[Slot::Uniform, Slot::Read], wgpu::ShaderStages::FRAGMENT),
+        });
+        let body_layout = body_layout(device);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("bodies"),
+            bind_group_layouts: &[Some(&frame), Some(&light_layout), Some(&body_layout)],
+            immediate_size: 0,
+        });
+        let pipeline = |fragment: &str, blend| mesh_pipeline(device, &layout, &module, fragment, blend, target);
+        let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let view = uniform_buffer::<ViewUniform>(device, "bodies' view");
+        // The frame's group wants settings, of which these shaders use none.
+        let settings = uniform_buffer::<SettingsUniform>(device, "no settings");
+        Self {
+            opaque: pipeline("opaque", None),
+            far_pane: pipeline("far_pane", over),
+            near_pane: pipeline("near_pane", over),
+            rim: pipeline("rim", over),
+            frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
+            light_layout,
+            body_layout,
+            sampler: device.create_sampler(&wgpu::SamplerDescriptor {
+                address_mode_u: wgpu::AddressMode::Repeat,
+                address_mode_v: wgpu::AddressMode::Repeat,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
+            blank: mesh::white(device, queue),
+            no_shadow: storage_buffer(device, "no shadow", 4),
+            view,
+            environment: uniform_buffer::<EnvironmentUniform>(device, "bodies' environment"),
+        }
+    }
+
+    /// Draws one layer into the host's pass. Uniforms are written to the queue at once: one view per submission.
+    pub fn draw(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pass: &mut wgpu::RenderPass<'_>,
+        frame: &BackdropFrame<'_>,
+        bodies: &[Body<'_>],
+        layer: Layer,
+    ) {
+        let BackdropFrame { view, size, environment, shadow } = *frame;
+        let bodies = bodies.iter().filter(|body| (body.look == Look::Glass) == (layer != Layer::Opaque));
+        let bodies: Vec<&Body<'_>> = bodies.collect();
+        if bodies.is_empty() {
+            return;
+        }
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
+        let environment = environment.uniform(view, shadow.map(|shadow| &shadow.tint));
+        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&environment));
+        let map = shadow.map_or(&self.no_shadow, |shadow| shadow.map);
+        let light = bind(device, &self.light_layout, &[self.environment.as_entire_binding(), map.as_entire_binding()]);
+        pass.set_bind_group(0, &self.frame_group, &[]);
+        pass.set_bind_group(1, &light, &[]);
+        for body in bodies {
+            pass.set_pipeline(match layer {
+                Layer::Opaque => &self.opaque,
+                Layer::FarGlass => &self.far_pane,
+                Layer::NearGlass => &self.near_pane,
+            });
+            for part in &body.mesh.parts {
+                let uniform = body.uniform(view, part);
+                self.triangles(device, queue, pass, &uniform, &part.textures, (&part.vertices, part.count));
+            }
+            if layer != Layer::Opaque {
+                self.rims(device, queue, pass, view, body, layer);
+            }
+        }
+    }
+
+    fn rims(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pass: &mut wgpu::RenderPass<'_>,
+        view: &View,
+        body: &Body<'_>,
+        layer: Layer,
+    ) {
+        let eye = view.eye();
+        let forward = (!view.is_perspective()).then(|| -view.view_from_world.row(2).truncate());
+        let [far, near] = rims::bars(&body.mesh.edges, &body.world_from_mesh, eye, forward);
+        let vertices = if layer == Layer::FarGlass { far } else { near };
+        if vertices.is_empty() {
+            return;
+        }
+        let clip_from_eye = view.clip_from_view * view.view_from_world * DMat4::from_translation(eye);
+        let uniform = BodyUniform {
+            clip_from_mesh: clip_from_eye.as_mat4(),
+            eye_from_mesh: Mat4::IDENTITY,
+            normal_from_mesh: Mat4::IDENTITY,
+            alpha: RIM_ALPHA,
+            ..BodyUniform::zeroed()
+        };
+        let buffer = mesh::vertex_buffer(device, queue, &vertices);
+        pass.set_pipeline(&self.rim);
+        let textures = [self.blank.clone(), self.blank.clone()];
+        self.triangles(device, queue, pass, &uniform, &textures, (&buffer, vertices.len() as u32));
+    }
+
+    fn triangles(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pass: &mut wgpu::RenderPass<'_>,
+        uniform: &BodyUniform,
+        textures: &[wgpu::TextureView; 2],
+        (vertices, count): (&wgpu::Buffer, u32),
+    ) {
+        let buffer = uniform_buffer::<BodyUniform>(device, "body");
+        queue.write_buffer(&buffer, 0, bytemuck::bytes_of(uniform));
+        let group = bind(
+            device,
+            &self.body_layout,
+            &[
+                buffer.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&textures[0]),
+                wgpu::BindingResource::TextureView(&textures[1]),
+                wgpu::BindingResource::Sampler(&self.sampler),
+            ],
+        );
+        pass.set_bind_group(2, &group, &[]);
+        pass.set_vertex_buffer(0, vertices.slice(..));
+        pass.draw(0..count, 0..1);
+    }
+}
+
+impl Body<'_> {
+    fn uniform(&self, view: &View, part: &Part) -> BodyUniform {
+        let [r, g, b, a] = part.base_color;
+        let world_from_mesh = self.world_from_mesh;
+        BodyUniform {
+            // In f64: scenes far from the origin keep their digits.
+            clip_from_mesh: (view.clip_from_view * view.view_from_world * world_from_mesh).as_mat4(),
+            eye_from_mesh: (DMat4::from_translation(-view.eye()) * world_from_mesh).as_mat4(),
+            normal_from_mesh: world_from_mesh.inverse().transpose().as_mat4(),
+            base_color: match self.look {
+                Look::Colored([r, g, b]) => [r, g, b, a],
+                Look::Own | Look::Glass => [r, g, b, a],
+            },
+            metallic: part.metallic,
+            roughness: part.roughness,
+            alpha: PANE_ALPHA,
+            padding: 0.0,
+        }
+    }
+}
+
+fn body_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+    let mut entries = slot_entries(&[Slot::Uniform, Slot::Color, Slot::Color], stages);
+    for entry in &mut entries[1..] {
+        entry.ty = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+    }
+    entries.push(wgpu::BindGroupLayoutEntry {
+        binding: 3,
+        visibility: stages,
+        ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        count: None,
+    });
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("body"), entries: &entries })
+}
+
+fn mesh_pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    fragment: &str,
+    blend: Option<wgpu::BlendState>,
+    target: &TargetFormat,
+) -> wgpu::RenderPipeline {
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: size_of::<Vertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &ATTRIBUTES,
+            })],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: target.depth.map(|(format, compare)| wgpu::DepthStencilState {
+            format,
+            // What is seen through does not hide.
+            depth_write_enabled: Some(blend.is_none()),
+            depth_compare: Some(compare),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState { count: target.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: target.color,
+                blend,
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
