@@ -23,6 +23,10 @@ pub enum Aov {
     Clay,
     /// Mean curvature per world length after the filter, positive where the surface bulges toward the viewer.
     Curvature,
+    /// Height of the advected noise, in r.
+    Noise,
+    /// Opacity of the foam on the surface.
+    Foam,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
 }
@@ -32,7 +36,7 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -42,6 +46,8 @@ impl Aov {
         Self::RawClay,
         Self::Clay,
         Self::Curvature,
+        Self::Noise,
+        Self::Foam,
         Self::Color,
     ];
 
@@ -57,6 +63,8 @@ impl Aov {
             Self::RawClay => "raw-clay",
             Self::Clay => "clay",
             Self::Curvature => "curvature",
+            Self::Noise => "noise",
+            Self::Foam => "foam",
             Self::Color => "color",
         }
     }
@@ -65,7 +73,7 @@ impl Aov {
     pub fn channels(self) -> usize {
         match self {
             Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
-            Self::RawClay | Self::Clay | Self::Curvature => 1,
+            Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
             Self::RawNormal | Self::Normal => 3,
             Self::Color => 4,
         }
@@ -100,7 +108,7 @@ impl Aov {
             Self::RawClay | Self::Clay => {
                 inside(words, nearness, |n| [(LAMP[0] * n[0] + LAMP[1] * n[1] + LAMP[2] * n[2]).max(0.0)])
             }
-            Self::Curvature => {
+            Self::Curvature | Self::Noise | Self::Foam => {
                 words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
             }
             Self::Color => inside(words, nearness, |pixel| *pixel),

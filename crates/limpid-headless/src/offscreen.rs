@@ -150,7 +150,12 @@ impl Offscreen {
     }
 
     fn upload(&self, shot: &Shot<'_>) -> Result<Particles, Error> {
-        Ok(Particles::upload(&self.gpu.device, &self.gpu.queue, &shot.particles)?)
+        let Gpu { device, queue, .. } = &self.gpu;
+        let mut particles = Particles::upload(device, queue, &shot.particles)?;
+        if shot.settings.detail.is_on() {
+            particles.set_motion(device, queue, &shot.motion)?;
+        }
+        Ok(particles)
     }
 
     /// Draws everything up to `images.shown`.
@@ -297,10 +302,24 @@ impl Offscreen {
         let nearness = words(buffers.nearness, 1)?;
         let curvature = aovs.contains(&Aov::Curvature).then(|| self.mean_curvature()).flatten();
         let image = |aov: &Aov| {
+            if let Aov::Noise | Aov::Foam = aov {
+                let values = self.read_detail(shot.size, usize::from(*aov == Aov::Foam))?;
+                return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
+            }
             let (buffer, per_pixel) = aov.source(&buffers, curvature.as_ref());
             Ok((*aov, aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view)))
         };
         aovs.iter().map(image).collect()
+    }
+
+    /// The noise (0) or foam (1) at every pixel of the picture, 0 where there is none.
+    fn read_detail(&self, size: [u32; 2], which: usize) -> Result<Vec<f32>, Error> {
+        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+        let Some(detail) = self.renderer.detail() else { return Ok(pixels.map(|_| 0.0).collect()) };
+        let count = 2 * detail.size[0] as usize * detail.size[1] as usize;
+        let values = readback::read_words(&self.gpu.device, &self.gpu.queue, detail.values, count)?;
+        let scale = size[0].div_ceil(detail.size[0]);
+        Ok(pixels.map(|[x, y]| values[2 * (y / scale * detail.size[0] + x / scale) as usize + which]).collect())
     }
 
     fn mean_curvature(&self) -> Option<wgpu::Buffer> {

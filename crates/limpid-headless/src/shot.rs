@@ -1,7 +1,7 @@
 //! What to draw, and what comes of it.
 
 use crate::Image;
-use limpid::{Body, Environment, ParticleSlices, PassTime, Settings, ToneMap, View};
+use limpid::{Body, Environment, Motion, ParticleSlices, PassTime, Settings, ToneMap, View};
 
 /// What is behind the fluid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,6 +32,8 @@ impl Background {
 pub struct Shot<'a> {
     /// The fluid.
     pub particles: ParticleSlices<'a>,
+    /// What its particles carry from frame to frame, for [`limpid::Detail`].
+    pub motion: Motion<'a>,
     /// The camera.
     pub view: View,
     /// Pixels across and down.

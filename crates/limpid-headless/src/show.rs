@@ -7,7 +7,8 @@ const BALL: f32 = 1.5;
 
 impl Aov {
     /// An opaque sRGB picture of the buffer, 4 bytes a pixel: depths from near (white) to far, thickness from none (black)
-    /// to the most there is, normals as (n + 1) / 2, clay and colour as light, mean
+    /// to the most there is, normals as (n + 1) / 2, clay, foam and colour as light, noise from
+    /// trough (dark) to crest (light), mean
     /// curvature as the 2009 paper's Fig. 8 (positive green, negative red, full brightness at that of a ball of 1.5 r);
     /// black where there is no fluid. `radius` is r, world units.
     pub fn picture(self, image: &Image, radius: f32) -> Vec<u8> {
@@ -32,7 +33,11 @@ impl Aov {
                 let shown = |h: &f32| [(-h * BALL * radius).max(0.0), (h * BALL * radius).max(0.0), 0.0];
                 values.iter().map(shown).collect()
             }
-            Self::RawClay | Self::Clay => grey(values, encode),
+            Self::Noise => {
+                let most = values.iter().fold(f32::MIN_POSITIVE, |most, v| most.max(v.abs()));
+                grey(values, |v| if v == 0.0 { 0.0 } else { 0.5 + 0.5 * v / most })
+            }
+            Self::RawClay | Self::Clay | Self::Foam => grey(values, encode),
             Self::Color => {
                 let (pixels, _) = values.as_chunks::<4>();
                 pixels.iter().map(|p| [p[0], p[1], p[2]].map(encode)).collect()

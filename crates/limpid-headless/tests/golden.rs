@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use image::RgbaImage;
-use limpid::{Bounds, Environment, Framing, ParticleSlices, Radius, Scale, Settings};
+use limpid::{Bounds, Environment, Framing, Motion, ParticleSlices, Radius, Scale, Settings};
 use limpid_headless::{Background, Gpu, Offscreen, Shot};
 use std::path::{Path, PathBuf};
 
@@ -59,6 +59,7 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
             radius: Radius::Uniform(golden.radius),
             density: None,
         },
+        motion: Motion::default(),
         view: framing.view(DVec3::Y, fov_y, aspect, 0.1 * radius),
         size: SIZE,
         settings: (golden.settings)(),

@@ -3,7 +3,7 @@
 use crate::bodies::BodyUniform;
 use crate::display::DisplayUniform;
 use crate::environment::EnvironmentUniform;
-use crate::passes::OpticsUniform;
+use crate::passes::{DetailUniform, OpticsUniform};
 use crate::renderer::SettingsUniform;
 use crate::view::ViewUniform;
 use std::mem::offset_of;
@@ -17,6 +17,9 @@ const SHADE: &str = concat!(
     include_str!("scene_depth.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
+
+/// The noise image's structs; the functions need the frame's.
+const DETAIL: &str = concat!(include_str!("frame.wgsl"), include_str!("passes/detail_image.wgsl"));
 
 /// Name and offset of the members of a WGSL struct, and its size.
 fn wgsl_layout(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
@@ -86,6 +89,27 @@ fn optics() {
     let rust =
         rust_layout!(OpticsUniform { absorption, refractive_index, color, refraction, specular, shininess, padding });
     assert_same(rust, wgsl_layout(SHADE, "Optics"));
+}
+
+#[test]
+fn detail() {
+    let rust = rust_layout!(DetailUniform {
+        size,
+        divisor,
+        octaves,
+        height,
+        frequency,
+        agitated_gain,
+        foam,
+        foam_color,
+        foam_opacity,
+        sun_view,
+        foam_begins,
+        foam_full,
+        has_motion,
+        padding
+    });
+    assert_same(rust, wgsl_layout(DETAIL, "Detail"));
 }
 
 #[test]

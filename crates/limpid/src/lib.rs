@@ -3,8 +3,10 @@
 //! The library draws into a frame of the host's: it never creates a device, never submits, opens no file and no window.
 //! A frame is [`Renderer::prepare`] (all compute passes) and [`Renderer::composite`] (one triangle, colour and depth).
 
+mod agitation;
 mod backdrop;
 mod bodies;
+mod detail;
 mod display;
 mod environment;
 mod error;
@@ -12,6 +14,7 @@ mod framing;
 mod gpu;
 #[cfg(test)]
 mod layout_tests;
+mod motion;
 mod particles;
 mod passes;
 mod renderer;
@@ -20,15 +23,18 @@ mod shadow;
 mod targets;
 mod view;
 
+pub use agitation::{Agitation, AgitationLimits};
 pub use backdrop::{Backdrop, BackdropFrame};
 pub use bodies::{Bodies, Body, Layer, Look, Material, Mesh, PartSlices, TextureSlices};
+pub use detail::{Detail, Foam};
 pub use display::{Display, ToneMap};
 pub use environment::Environment;
 pub use error::Error;
 pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
+pub use motion::Motion;
 pub use particles::{ParticleSlices, Particles, Radius};
-pub use renderer::{EllipsoidBuffers, Frame, FrameBuffers, Renderer, Scene, TargetFormat};
+pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, Renderer, Scene, TargetFormat};
 pub use settings::{Absorption, Anisotropy, CurvatureFlow, Filter, Optics, Scale, Settings, Smoothing};
 pub use shadow::FloorShadow;
 pub use view::View;

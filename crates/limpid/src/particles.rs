@@ -1,6 +1,6 @@
 //! Particles on the GPU.
 
-use crate::Error;
+use crate::{Error, Motion};
 use glam::DVec3;
 
 /// Particle arrays of the host's, not copied. World position = origin + position.
@@ -82,6 +82,8 @@ pub struct Particles {
     pub(crate) reference_radius: f32,
     pub(crate) largest_radius: f32,
     has_density: bool,
+    /// `detail_splat.wgsl`'s vec4u of each particle, a buffer for each chunk; empty: nothing is known.
+    motions: Vec<wgpu::Buffer>,
 }
 
 /// Particles that one dispatch can bind, as the balls that `ball.wgsl` reads. Buffers may be larger.
@@ -149,7 +151,34 @@ impl Particles {
             reference_radius: slices.reference_radius(),
             largest_radius: slices.largest_radius(),
             has_density: slices.density.is_some(),
+            motions: Vec::new(),
         })
+    }
+
+    /// Copies what the particles carry from frame to frame, 16 bytes each, in the order of the positions.
+    ///
+    /// # Errors
+    /// Arrays of other lengths than the positions.
+    pub fn set_motion(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, motion: &Motion<'_>) -> Result<(), Error> {
+        motion.check(self.len() as usize)?;
+        let mut first = 0;
+        let buffer = |chunk: &Chunk| {
+            let range = first..first + chunk.count as usize;
+            first = range.end;
+            let packed: Vec<[u32; 4]> = range.map(|index| motion.packed(index)).collect();
+            filled_buffer(device, queue, "motions", bytemuck::cast_slice(&packed))
+        };
+        self.motions = self.chunks.iter().map(buffer).collect();
+        Ok(())
+    }
+
+    /// The chunks with what `detail_splat.wgsl` reads of each.
+    pub(crate) fn chunks_in_motion(&self) -> impl Iterator<Item = (&Chunk, Option<&wgpu::Buffer>)> {
+        self.chunks.iter().enumerate().map(|(index, chunk)| (chunk, self.motions.get(index)))
+    }
+
+    pub(crate) fn has_motion(&self) -> bool {
+        !self.motions.is_empty()
     }
 
     /// How many there are.

@@ -3,13 +3,13 @@
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Curvature, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness, Tiles,
-    Upsample, level_count,
+    Composite, Curvature, Detail, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness,
+    Tiles, Upsample, level_count,
 };
 use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
-use crate::{Environment, Error, Optics, Particles, Settings, Smoothing, View};
+use crate::{Environment, Error, Foam, Optics, Particles, Settings, Smoothing, View};
 use bytemuck::{Pod, Zeroable};
 
 /// The host's render target that [`Renderer::composite`] draws into.
@@ -138,6 +138,7 @@ pub struct Renderer {
     thickness: Thickness,
     smooth: Smooth,
     normals: Normals,
+    detail: Detail,
     shade: Shade,
     upsample: Upsample,
     composite: Composite,
@@ -158,6 +159,8 @@ struct Prepared {
     nearness: wgpu::Buffer,
     /// The same at the fluid's own resolution.
     smoothed: wgpu::Buffer,
+    /// Noise and foam at the fluid's own resolution.
+    detail: Option<wgpu::Buffer>,
 }
 
 /// Stand-ins for a scene's textures where there is no scene.
@@ -206,6 +209,7 @@ impl Renderer {
             thickness: Thickness::new(device, &layout),
             smooth: Smooth::new(device, &layout),
             normals: Normals::new(device, &layout),
+            detail: Detail::new(device, &layout),
             shade: Shade::new(device, &layout),
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
@@ -309,7 +313,11 @@ impl Renderer {
         }
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, scene.depth, &targets);
+        let detail = settings.detail.is_on().then(|| self.detail.encode(recorder, queue, frame, smoothed, &targets));
         self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), &targets);
+        if let Some(detail) = detail.as_ref().filter(|_| settings.detail.foam != Foam::Off) {
+            self.detail.foam(recorder, detail, &targets);
+        }
         let fluid =
             FluidImages { raw: &targets.raw, nearness: smoothed, surface: &targets.surface, shaded: &targets.shaded };
         let picture = self.upsample.encode(recorder, fluid, scene.depth, &targets);
@@ -317,7 +325,7 @@ impl Renderer {
         let images = self.composite.bind(device, picture.nearness, picture.shaded);
         let nearness = picture.nearness.clone();
         let smoothed = smoothed.clone();
-        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed });
+        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed, detail });
         self.targets = Some(targets);
         Ok(())
     }
@@ -345,6 +353,13 @@ impl Renderer {
     /// The particles of the last frame with [`crate::Anisotropy`], for reading back.
     pub fn ellipsoids(&self) -> impl Iterator<Item = EllipsoidBuffers<'_>> {
         self.ellipsoids.buffers()
+    }
+
+    /// Noise and foam of the last prepared frame, for reading back; None where it had none.
+    pub fn detail(&self) -> Option<DetailBuffer<'_>> {
+        let size = self.targets.as_ref()?.size;
+        let values = self.prepared.as_ref()?.detail.as_ref()?;
+        Some(DetailBuffer { size, values })
     }
 
     /// The buffers of the last prepared frame, for reading back; None before the first.
@@ -378,6 +393,16 @@ pub struct EllipsoidBuffers<'a> {
     /// Eight f16 each: a symmetric matrix less the identity (xx, yy, zz, xy, xz, yz) and two unused. It makes the ellipsoid
     /// from the sphere of the same volume. Particles that cannot show are spheres.
     pub shapes: &'a wgpu::Buffer,
+}
+
+/// Noise and foam of one frame ([`crate::Detail`]).
+#[derive(Clone, Copy)]
+pub struct DetailBuffer<'a> {
+    /// The fluid's own pixels across and down: fewer than the picture's where [`Settings::filter_scale`] says so.
+    pub size: [u32; 2],
+    /// Two f32 for each of them, row 0 at the top: height of the noise in r, opacity of the foam. Anything where there is no
+    /// fluid.
+    pub values: &'a wgpu::Buffer,
 }
 
 /// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is not

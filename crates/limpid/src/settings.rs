@@ -1,7 +1,7 @@
 //! Every knob of the fluid's look. Lengths are in particle radii (r) unless a name says otherwise, so that a scene in
 //! millimetres looks like the same scene in metres.
 
-use crate::Error;
+use crate::{Detail, Error};
 
 /// How the fluid is drawn. `Settings::default()` looks good untouched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +28,8 @@ pub struct Settings {
     /// Neighbouring pixels farther apart than this many r belong to different sheets when normals are taken;
     /// default 3.
     pub normal_step: f32,
+    /// Noise and foam on the surface.
+    pub detail: Detail,
     /// What light does in and on the liquid.
     pub optics: Optics,
 }
@@ -44,6 +46,7 @@ impl Default for Settings {
             smoothing: Smoothing::default().for_ellipsoids(),
             filter_scale: Scale::Full,
             normal_step: 3.0,
+            detail: Detail::default(),
             optics: Optics::default(),
         }
     }
@@ -296,6 +299,7 @@ impl Settings {
         within("max radius", smoothing.max_radius_px as f32, 1.0..=256.0, "from 1 to 256")?;
         within("range", smoothing.range, 0.01..=1000.0, "from 0.01 to 1000")?;
         within("clamp", smoothing.clamp, 0.0..=1000.0, "from 0 to 1000")?;
+        self.detail.check()?;
         within("refractive index", optics.refractive_index, 1.0..=3.0, "from 1 to 3")?;
         let (Absorption::PerRadius(absorption) | Absorption::PerWorld(absorption)) = optics.absorption;
         for value in absorption {
@@ -321,7 +325,7 @@ impl Absorption {
 }
 
 /// NaN is within nothing.
-fn within(
+pub(crate) fn within(
     name: &'static str,
     value: f32,
     range: std::ops::RangeInclusive<f32>,

@@ -57,6 +57,7 @@ impl Stage {
     pub fn shot<'a>(&self, options: &Options, particles: &'a FrameParticles, bodies: &'a [Body<'a>]) -> Shot<'a> {
         Shot {
             particles: particles.slices(),
+            motion: particles.motion(),
             view: self.view,
             size: options.size(),
             settings: options.settings(),

@@ -1,7 +1,7 @@
 //! Options that are one of a few names. Each list of names is here and nowhere else.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use limpid::{CurvatureFlow, Filter, Scale};
+use limpid::{CurvatureFlow, Filter, Foam, Scale};
 use limpid_headless::{Aov, Background};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -34,6 +34,11 @@ impl Choice for bool {
 
 impl Choice for Scale {
     const ALL: &'static [(&'static str, Self)] = &[("1", Self::Full), ("2", Self::Half), ("4", Self::Quarter)];
+}
+
+impl Choice for Foam {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("off", Self::Off), ("agitation", Self::Agitation), ("speed", Self::Speed)];
 }
 
 impl Choice for Background {

@@ -105,7 +105,7 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 18] = [
+    const NOT_NUMBERS: [&str; 20] = [
         "mesh",
         "bodies",
         "input",
@@ -120,6 +120,8 @@ mod tests {
         "thickness-scale",
         "background",
         "exact-2d",
+        "noise-scale",
+        "foam",
         "show",
         "aov",
         "timings",

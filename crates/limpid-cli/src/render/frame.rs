@@ -3,8 +3,8 @@
 use super::survey::Survey;
 use crate::failure::Failure;
 use glam::DVec3;
-use limpid::{ParticleSlices, Radius};
-use limpid_io::ParticleSet;
+use limpid::{Motion, ParticleSlices, Radius};
+use limpid_io::{ParticleSet, Values};
 
 /// One frame's particles.
 pub struct FrameParticles {
@@ -12,6 +12,9 @@ pub struct FrameParticles {
     positions: Vec<[f32; 3]>,
     radii: Radii,
     density: Option<Vec<f32>>,
+    ids: Option<Vec<i64>>,
+    velocities: Option<Vec<[f32; 3]>>,
+    heat: Option<Vec<f32>>,
 }
 
 enum Radii {
@@ -30,7 +33,13 @@ impl FrameParticles {
             None if from_file => Radii::Uniform(set.radius(None)?.value as f32),
             None => Radii::Uniform(survey.radius_world() as f32),
         };
-        let mut frame = Self { origin: DVec3::from_array(set.origin), positions: set.positions, radii, density };
+        let ids = set.attribute("id").and_then(|attribute| match &attribute.values {
+            Values::I64(ids) => Some(ids.clone()),
+            _ => None,
+        });
+        let velocities = velocities_of(&set);
+        let origin = DVec3::from_array(set.origin);
+        let mut frame = Self { origin, positions: set.positions, radii, density, ids, velocities, heat: None };
         frame.drop_points();
         Ok(frame)
     }
@@ -46,7 +55,38 @@ impl FrameParticles {
         if let Some(density) = &mut self.density {
             keep(density, &solid);
         }
+        if let Some(ids) = &mut self.ids {
+            keep(ids, &solid);
+        }
+        if let Some(velocities) = &mut self.velocities {
+            keep(velocities, &solid);
+        }
         keep(radii, &solid);
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Who each particle is, where the file says so.
+    pub fn ids(&self) -> Option<&[i64]> {
+        self.ids.as_deref()
+    }
+
+    /// World units per second, where the file says so.
+    pub fn velocities(&self) -> Option<&[[f32; 3]]> {
+        self.velocities.as_deref()
+    }
+
+    /// Makes each particle as agitated as it says, 0 to 1.
+    pub fn set_heat(&mut self, heat: Vec<f32>) {
+        self.heat = Some(heat);
+    }
+
+    /// What the particles carry from frame to frame.
+    pub fn motion(&self) -> Motion<'_> {
+        Motion { ids: self.ids(), velocities: self.velocities(), heat: self.heat.as_deref() }
     }
 
     /// The particles as the renderer takes them.
@@ -61,6 +101,14 @@ impl FrameParticles {
             density: self.density.as_deref(),
         }
     }
+}
+
+/// World units per second of each particle; lost ones (NaN) are at rest.
+fn velocities_of(set: &ParticleSet) -> Option<Vec<[f32; 3]>> {
+    let attribute = set.attribute("velocity").filter(|attribute| attribute.components == 3)?;
+    let values = attribute.values.floats();
+    let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
+    Some(values.as_chunks::<3>().0.iter().map(|v| v.map(finite)).collect())
 }
 
 fn keep<T>(values: &mut Vec<T>, wanted: &[bool]) {
@@ -79,8 +127,12 @@ mod tests {
             positions: vec![[0.0; 3], [1.0; 3], [2.0; 3]],
             radii: Radii::Each(vec![1.0, 0.0, 2.0]),
             density: Some(vec![5.0, 6.0, 7.0]),
+            ids: Some(vec![7, 8, 9]),
+            velocities: None,
+            heat: None,
         };
         frame.drop_points();
+        assert_eq!(frame.ids(), Some(&[7, 9][..]));
         let slices = frame.slices();
         assert_eq!(slices.positions, [[0.0; 3], [2.0; 3]]);
         assert_eq!(slices.density, Some(&[5.0, 7.0][..]));

@@ -44,6 +44,17 @@ const RANGES: &[(&str, Range)] = &[
     ("refraction", Range::Within(0.0, 4.0)),
     ("specular", Range::Within(0.0, 4.0)),
     ("shininess", Range::Within(1.0, 4096.0)),
+    ("noise", Range::Within(0.0, 1.0)),
+    ("noise-wavelength", Range::Within(0.25, 8.0)),
+    ("noise-octaves", Range::Within(1.0, 4.0)),
+    ("agitated-gain", Range::Within(0.0, 16.0)),
+    ("agitation-threshold", Range::Within(1e-9, 1e12)),
+    ("cooling", Range::Within(1e-6, 1e6)),
+    ("fps", Range::Within(1e-3, 1e6)),
+    ("foam-opacity", Range::Within(0.0, 1.0)),
+    ("foam-color", Range::Within(0.0, 1000.0)),
+    ("foam-speed-min", Range::Within(0.0, 1e12)),
+    ("foam-speed-max", Range::Within(0.0, 1e12)),
 ];
 
 impl Range {

@@ -5,6 +5,7 @@ mod choice;
 mod config;
 mod frame;
 mod limits;
+mod living;
 mod options;
 mod outputs;
 mod progress;
@@ -22,6 +23,7 @@ use camera::Stage;
 use clap::Args;
 use frame::FrameParticles;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
+use living::Living;
 use options::Options;
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
@@ -59,22 +61,28 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let survey = Survey::of(&sequence.frames, &options)?;
     let stage = Stage::of(&options, &survey, &props)?;
     let meshes = props.upload(offscreen.gpu());
+    let mut living = Living::new(&options);
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
     for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
         let set = survey.read(&frame.path)?;
-        let particles = FrameParticles::of(set, &survey)?;
+        let mut particles = FrameParticles::of(set, &survey)?;
+        let remarks = living.advance(frame, &mut particles);
         let bodies = props.at(frame, &meshes);
         let shot = stage.shot(&options, &particles, &bodies);
         let wanted = Wanted { show: options.show.map(|aov| aov.0), aovs: &outputs.aovs };
         render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
         if index == 0 {
             // Only now: a failure so far is one line.
-            for warning in sequence.warnings.iter().chain(&survey.warnings).chain(&props.warnings) {
+            let warnings = sequence.warnings.iter().chain(&survey.warnings).chain(&props.warnings);
+            for warning in warnings.chain(&remarks.warnings) {
                 console::warn(warning);
             }
             if let (false, Some(radius)) = (quiet, survey.radius_note()) {
                 console::note(&radius);
             }
+        }
+        if !quiet {
+            remarks.notes.iter().for_each(|note| console::note(note));
         }
         if index + 1 == sequence.frames.len()
             && let Some(target) = &outputs.timings

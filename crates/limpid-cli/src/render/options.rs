@@ -5,7 +5,7 @@ use super::size::Size;
 use crate::failure::Failure;
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use limpid::{Absorption, CurvatureFlow, Filter, Scale, Settings, Smoothing};
+use limpid::{Absorption, AgitationLimits, CurvatureFlow, Filter, Foam, Scale, Settings, Smoothing};
 use limpid_headless::{Aov, Background};
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,9 @@ const FOV_DEGREES: f64 = 45.0;
 
 /// The light is shown as it is.
 const EXPOSURE: f64 = 1.0;
+
+/// Frames per second where nothing else is asked for: what most simulations are written at.
+const FPS: f64 = 25.0;
 
 /// The options; what is not given is None. Ranges and defaults are added to the help from their own places.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -152,6 +155,45 @@ pub struct Options {
     /// Bodies and tank walls to draw, with their places in every frame
     #[arg(long, value_name = "FILE.json", help_heading = "Scene")]
     pub bodies: Option<String>,
+    /// Ripples that ride with the particles: their height in particle radii; 0 is none, 0.05 lively
+    #[arg(long, value_name = "H", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub noise: Option<f64>,
+    /// Wavelength of the longest ripples in particle radii
+    #[arg(long, value_name = "L", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub noise_wavelength: Option<f64>,
+    /// Octaves of the ripples; each is half as long and half as high as the one before
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub noise_octaves: Option<u32>,
+    /// Pixels along one side of a texel of the noise image; never finer than the fluid's own pixels
+    #[arg(long, value_name = "N", value_parser = choice::<Scale>(), help_heading = "Living surface")]
+    pub noise_scale: Option<Named<Scale>>,
+    /// How much higher the ripples of agitated particles are: up to 1 + this times
+    #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub agitated_gain: Option<f64>,
+    /// Change of velocity beyond which particles are agitated, world units per second, per second
+    #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub agitation_threshold: Option<f64>,
+    /// Seconds in which agitation falls to 1/e
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub cooling: Option<f64>,
+    /// Frames per second of the simulation: frame numbers over this are seconds
+    #[arg(long, value_name = "FPS", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub fps: Option<f64>,
+    /// Foam where particles are agitated, or simply where they are fast
+    #[arg(long, value_name = "NAME", value_parser = choice::<Foam>(), help_heading = "Living surface")]
+    pub foam: Option<Named<Foam>>,
+    /// Opacity of full foam
+    #[arg(long, value_name = "O", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub foam_opacity: Option<f64>,
+    /// Linear colour of foam in full light
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Living surface")]
+    pub foam_color: Option<[f64; 3]>,
+    /// Speed at which speed foam begins (and agitation in a first frame), world units per second
+    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub foam_speed_min: Option<f64>,
+    /// Speed at which speed foam is full (and agitation in a first frame), world units per second
+    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Living surface")]
+    pub foam_speed_max: Option<f64>,
 
     /// Draw one buffer instead of the shaded fluid
     #[arg(long, value_name = "NAME", value_parser = choice::<Aov>(), help_heading = "More output")]
@@ -186,6 +228,9 @@ impl Options {
             quality: Some(Named(Quality::Standard)),
             background: Some(Named(Background::default())),
             exposure: Some(EXPOSURE),
+            agitation_threshold: Some(AgitationLimits::default().threshold),
+            cooling: Some(AgitationLimits::default().cooling),
+            fps: Some(FPS),
             quiet: Some(false),
             ..Self::of_settings(&Settings::default())
         }
@@ -229,7 +274,7 @@ impl Options {
     }
 
     fn of_settings(settings: &Settings) -> Self {
-        let Settings { anisotropy, optics, .. } = settings;
+        let Settings { anisotropy, detail, optics, .. } = settings;
         let (absorption, absorption_per_world) = match optics.absorption {
             Absorption::PerRadius(rgb) => (Some(rgb.map(widen)), None),
             Absorption::PerWorld(rgb) => (None, Some(rgb.map(widen))),
@@ -247,6 +292,16 @@ impl Options {
             thickness_scale: Some(Named(settings.thickness_scale)),
             min_thickness: Some(widen(settings.min_thickness)),
             normal_step: Some(widen(settings.normal_step)),
+            noise: Some(widen(detail.noise)),
+            noise_wavelength: Some(widen(detail.wavelength)),
+            noise_octaves: Some(detail.octaves),
+            noise_scale: Some(Named(detail.scale)),
+            agitated_gain: Some(widen(detail.agitated_gain)),
+            foam: Some(Named(detail.foam)),
+            foam_opacity: Some(widen(detail.foam_opacity)),
+            foam_color: Some(detail.foam_color.map(widen)),
+            foam_speed_min: Some(widen(detail.foam_speed[0])),
+            foam_speed_max: Some(widen(detail.foam_speed[1])),
             refractive_index: Some(widen(optics.refractive_index)),
             absorption,
             absorption_per_world,
@@ -300,6 +355,18 @@ impl Options {
         set(&mut smoothing.range, self.filter_range);
         set(&mut smoothing.clamp, self.filter_clamp);
 
+        let detail = &mut settings.detail;
+        set(&mut detail.noise, self.noise);
+        set(&mut detail.wavelength, self.noise_wavelength);
+        detail.octaves = self.noise_octaves.unwrap_or(detail.octaves);
+        detail.scale = self.noise_scale.map_or(detail.scale, |scale| scale.0);
+        set(&mut detail.agitated_gain, self.agitated_gain);
+        detail.foam = self.foam.map_or(detail.foam, |foam| foam.0);
+        set(&mut detail.foam_opacity, self.foam_opacity);
+        detail.foam_color = self.foam_color.map_or(detail.foam_color, |rgb| rgb.map(|v| v as f32));
+        set(&mut detail.foam_speed[0], self.foam_speed_min);
+        set(&mut detail.foam_speed[1], self.foam_speed_max);
+
         let optics = &mut settings.optics;
         set(&mut optics.refractive_index, self.refractive_index);
         if let Some(rgb) = self.absorption {
@@ -313,6 +380,22 @@ impl Options {
         set(&mut optics.specular, self.specular);
         set(&mut optics.shininess, self.shininess);
         settings
+    }
+
+    /// What agitates particles.
+    pub fn agitation(&self) -> AgitationLimits {
+        let limits = AgitationLimits::default();
+        let [low, high] = self.settings().detail.foam_speed;
+        AgitationLimits {
+            threshold: self.agitation_threshold.unwrap_or(limits.threshold),
+            cooling: self.cooling.unwrap_or(limits.cooling),
+            first_frame: [low.into(), high.max(1.001 * low).max(f32::MIN_POSITIVE).into()],
+        }
+    }
+
+    /// Frames per second of the simulation.
+    pub fn fps(&self) -> f64 {
+        self.fps.unwrap_or(FPS)
     }
 
     /// What to render.

@@ -3,6 +3,7 @@
 mod anisotropy;
 mod composite;
 mod curvature;
+mod detail;
 mod neighbours;
 mod normals;
 mod shade;
@@ -16,6 +17,9 @@ mod visible;
 pub(crate) use anisotropy::Ellipsoids;
 pub(crate) use composite::Composite;
 pub(crate) use curvature::Curvature;
+pub(crate) use detail::Detail;
+#[cfg(test)]
+pub(crate) use detail::DetailUniform;
 pub(crate) use normals::Normals;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
 pub(crate) use smooth::{Smooth, segments_bytes};

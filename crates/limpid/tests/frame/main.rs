@@ -7,6 +7,7 @@ mod common;
 
 mod composite;
 mod curvature_flow;
+mod detail;
 mod gaussian_windows;
 mod large_splats;
 mod laws;

@@ -4,6 +4,7 @@
 
 mod camera;
 mod curvature_flow;
+mod detail;
 mod environment;
 mod narrow_range;
 mod nearness;
@@ -17,6 +18,7 @@ mod window;
 
 pub use camera::{Camera, Ray};
 pub use curvature_flow::{curvature_flow, mean_curvature};
+pub use detail::living;
 pub use environment::{Scene, Surroundings, scene_of};
 pub use narrow_range::narrow_range;
 pub use normals::normals;
