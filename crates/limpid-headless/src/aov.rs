@@ -29,6 +29,8 @@ pub enum Aov {
     Foam,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
+    /// Linear premultiplied RGBA of the whole picture, with what is behind and before the fluid, before tone mapping.
+    Picture,
 }
 
 /// Towards the lamp that lights clay, view space.
@@ -36,7 +38,7 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -49,6 +51,7 @@ impl Aov {
         Self::Noise,
         Self::Foam,
         Self::Color,
+        Self::Picture,
     ];
 
     /// Its name on the command line: "raw-depth", "depth", ...
@@ -66,6 +69,7 @@ impl Aov {
             Self::Noise => "noise",
             Self::Foam => "foam",
             Self::Color => "color",
+            Self::Picture => "picture",
         }
     }
 
@@ -75,7 +79,7 @@ impl Aov {
             Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
             Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
             Self::RawNormal | Self::Normal => 3,
-            Self::Color => 4,
+            Self::Color | Self::Picture => 4,
         }
     }
 
@@ -112,6 +116,7 @@ impl Aov {
                 words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
             }
             Self::Color => inside(words, nearness, |pixel| *pixel),
+            Self::Picture => words.to_vec(),
         };
         Image { size, channels: self.channels(), values }
     }

@@ -95,7 +95,8 @@ impl Gpu {
                 max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
                 ..wgpu::Limits::default()
             },
-            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_features: adapter.features()
+                & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE),
             ..Default::default()
         }))
         .map_err(|error| Error::Device(error.to_string()))?;

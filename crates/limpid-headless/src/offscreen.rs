@@ -7,9 +7,14 @@ use limpid::{
 };
 use std::time::Instant;
 
-/// Linear light: the scene, then the fluid over it.
-const LINEAR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Linear light: the scene, then the fluid over it. Half floats where the device cannot blend others.
+fn linear_format(device: &wgpu::Device) -> wgpu::TextureFormat {
+    let exact = device.features().contains(wgpu::Features::FLOAT32_BLENDABLE);
+    if exact { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
+}
+
 const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
 /// Renders shots on one device, reusing its pipelines and buffers from shot to shot.
@@ -37,6 +42,7 @@ struct Images {
 impl Images {
     fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
         use wgpu::TextureUsages as Usage;
+        let linear = linear_format(device);
         let texture = |label, format, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -51,9 +57,9 @@ impl Images {
         };
         Self {
             size,
-            scene: texture("scene", LINEAR, Usage::TEXTURE_BINDING | Usage::COPY_SRC),
+            scene: texture("scene", linear, Usage::TEXTURE_BINDING | Usage::COPY_SRC),
             depth: texture("scene depth", DEPTH, Usage::TEXTURE_BINDING),
-            picture: texture("picture", LINEAR, Usage::TEXTURE_BINDING | Usage::COPY_DST),
+            picture: texture("picture", linear, Usage::TEXTURE_BINDING | Usage::COPY_DST | Usage::COPY_SRC),
             shown: texture("shown", SHOWN, Usage::COPY_SRC),
         }
     }
@@ -78,7 +84,11 @@ impl Offscreen {
     /// # Errors
     /// The driver refuses a pipeline.
     pub fn new(gpu: Gpu) -> Result<Self, Error> {
-        let target = TargetFormat { color: LINEAR, depth: Some((DEPTH, wgpu::CompareFunction::Greater)), samples: 1 };
+        let target = TargetFormat {
+            color: linear_format(&gpu.device),
+            depth: Some((DEPTH, wgpu::CompareFunction::Greater)),
+            samples: 1,
+        };
         let guard = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let renderer = Renderer::new(&gpu.device, &target);
         let backdrop = Backdrop::new(&gpu.device, &target);
@@ -306,6 +316,9 @@ impl Offscreen {
                 let values = self.read_detail(shot.size, usize::from(*aov == Aov::Foam))?;
                 return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
             }
+            if *aov == Aov::Picture {
+                return Ok((*aov, aov.image(shot.size, &self.read_linear()?, &nearness, &shot.view)));
+            }
             let (buffer, per_pixel) = aov.source(&buffers, curvature.as_ref());
             Ok((*aov, aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view)))
         };
@@ -320,6 +333,15 @@ impl Offscreen {
         let values = readback::read_words(&self.gpu.device, &self.gpu.queue, detail.values, count)?;
         let scale = size[0].div_ceil(detail.size[0]);
         Ok(pixels.map(|[x, y]| values[2 * (y / scale * detail.size[0] + x / scale) as usize + which]).collect())
+    }
+
+    fn read_linear(&self) -> Result<Vec<f32>, Error> {
+        let Some(images) = &self.images else { return Ok(Vec::new()) };
+        let bytes = readback::read_texture(&self.gpu.device, &self.gpu.queue, &images.picture)?;
+        Ok(match images.picture.format() {
+            wgpu::TextureFormat::Rgba32Float => bytemuck::pod_collect_to_vec(&bytes),
+            _ => bytes.as_chunks().0.iter().map(|half| half::f16::from_le_bytes(*half).to_f32()).collect(),
+        })
     }
 
     fn mean_curvature(&self) -> Option<wgpu::Buffer> {

@@ -47,13 +47,13 @@ pub(crate) fn read_words(
     Ok(bytemuck::pod_collect_to_vec(&read))
 }
 
-/// All texels of a texture with 4 bytes a texel.
+/// All texels of a texture of an uncompressed colour format, row by row.
 pub(crate) fn read_texture(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     texture: &wgpu::Texture,
 ) -> Result<Vec<u8>, Error> {
-    let row = 4 * texture.width();
+    let row = texture.format().block_copy_size(None).unwrap_or(4) * texture.width();
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let bytes = u64::from(padded) * u64::from(texture.height());
     let read = read_bytes(device, queue, bytes, |encoder, to| {

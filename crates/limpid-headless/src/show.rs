@@ -38,7 +38,7 @@ impl Aov {
                 grey(values, |v| if v == 0.0 { 0.0 } else { 0.5 + 0.5 * v / most })
             }
             Self::RawClay | Self::Clay | Self::Foam => grey(values, encode),
-            Self::Color => {
+            Self::Color | Self::Picture => {
                 let (pixels, _) = values.as_chunks::<4>();
                 pixels.iter().map(|p| [p[0], p[1], p[2]].map(encode)).collect()
             }

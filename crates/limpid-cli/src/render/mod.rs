@@ -18,7 +18,7 @@ pub use config::describe_options;
 
 use crate::console;
 use crate::failure::Failure;
-use crate::write::{write_aov, write_picture};
+use crate::write::{write_aov, write_layers, write_picture};
 use camera::Stage;
 use clap::Args;
 use frame::FrameParticles;
@@ -69,7 +69,11 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         let remarks = living.advance(frame, &mut particles);
         let bodies = props.at(frame, &meshes);
         let shot = stage.shot(&options, &particles, &bodies);
-        let wanted = Wanted { show: options.show.map(|aov| aov.0), aovs: &outputs.aovs };
+        let wanted = Wanted {
+            show: options.show.map(|aov| aov.0),
+            aovs: &outputs.aovs,
+            layers: if outputs.are_layered { &LAYERS } else { &[] },
+        };
         render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
         if index == 0 {
             // Only now: a failure so far is one line.
@@ -100,7 +104,12 @@ struct Wanted<'a> {
     /// The buffer that the picture is of; None: the shaded fluid.
     show: Option<Aov>,
     aovs: &'a [outputs::AovKind],
+    /// The layers of the picture's file; none: it is a PNG.
+    layers: &'a [Aov],
 }
+
+/// What an OpenEXR file of a picture holds.
+const LAYERS: [Aov; 4] = [Aov::Picture, Aov::Depth, Aov::Normal, Aov::Thickness];
 
 /// Renders one frame and writes its picture and buffers.
 fn render(
@@ -110,14 +119,21 @@ fn render(
     files: &FrameOutputs,
     input: &Path,
 ) -> Result<(), Failure> {
-    let kinds: Vec<Aov> = wanted.aovs.iter().map(|kind| kind.aov).chain(wanted.show).collect();
+    let kinds = wanted.aovs.iter().map(|kind| kind.aov).chain(wanted.layers.iter().copied()).chain(wanted.show);
+    let kinds: Vec<Aov> = kinds.collect();
     let mut picture =
         offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
     if let (Some(show), Some(image)) = (wanted.show, picture.aovs.last()) {
         picture.rgba = show.picture(image, shot.particles.reference_radius());
     }
+    let layers: Vec<_> = kinds.iter().copied().zip(&picture.aovs).skip(wanted.aovs.len()).collect();
+    if !wanted.layers.is_empty() {
+        write_layers(&files.picture, &layers)?;
+    }
     let opaque = wanted.show.is_some() || shot.background != Background::Transparent;
-    write_picture(&files.picture, &picture, opaque)?;
+    if wanted.layers.is_empty() {
+        write_picture(&files.picture, &picture, opaque)?;
+    }
     for ((kind, path), image) in wanted.aovs.iter().zip(&files.aovs).zip(&picture.aovs) {
         write_aov(path, kind.format, kind.aov, image)?;
     }

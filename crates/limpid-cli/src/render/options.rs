@@ -25,8 +25,8 @@ pub struct Options {
     /// Particle files, a folder, or a pattern of numbered files (`frame_{}.vtk`, `frame_%04d.bgeo`, `frame_####.ply`, a glob)
     #[arg(value_name = "INPUT")]
     pub input: Option<Vec<String>>,
-    /// Picture to write, .png; for several frames with `{}`, `%04d` or `####` in place of the number, else it is added
-    #[arg(short, long, value_name = "OUT.png")]
+    /// Picture to write: .png, or .exr in linear light with depth, normal, thickness and more as layers; for several frames with `{}`, `%04d` or `####` in place of the number, else it is added
+    #[arg(short, long, value_name = "OUT.png|exr")]
     pub output: Option<String>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH")]

@@ -14,6 +14,8 @@ const DIGITS: usize = 4;
 
 /// All files of a run.
 pub struct Outputs {
+    /// Whether pictures are OpenEXR files with all buffers as layers, or PNG.
+    pub are_layered: bool,
     /// For each frame.
     pub frames: Vec<FrameOutputs>,
     /// The buffers of every frame.
@@ -51,9 +53,14 @@ impl Outputs {
     /// Names the files of every frame.
     pub fn plan(options: &Options, frames: &[Frame]) -> Result<Self, Failure> {
         let picture = options.output.as_deref();
-        let picture = picture.ok_or_else(|| Failure::usage("no output: give -o OUT.png"))?;
-        if !extension_is(Path::new(picture), "png") {
-            return Err(Failure::usage(format!("-o {picture}: a picture's name must end in .png")));
+        let picture = picture.ok_or_else(|| Failure::usage("no output: give -o OUT.png or OUT.exr"))?;
+        let is_layered = extension_is(Path::new(picture), "exr");
+        if !is_layered && !extension_is(Path::new(picture), "png") {
+            return Err(Failure::usage(format!("-o {picture}: a picture's name must end in .png or .exr")));
+        }
+        if let (true, Some(show)) = (is_layered, options.show) {
+            let name = show.0.name();
+            return Err(Failure::usage(format!("-o {picture}: --show {name} makes a .png; an .exr has every buffer")));
         }
         let aovs: Vec<(AovKind, &str)> =
             options.aov.iter().flatten().map(|text| parse_aov(text)).collect::<Result<_, _>>()?;
@@ -72,7 +79,12 @@ impl Outputs {
                 aovs: aovs.iter().map(|(_, path)| numbered(path, number, several)).collect(),
             }
         });
-        let outputs = Self { frames: files.collect(), aovs: aovs.into_iter().map(|(kind, _)| kind).collect(), timings };
+        let outputs = Self {
+            are_layered: is_layered,
+            frames: files.collect(),
+            aovs: aovs.into_iter().map(|(kind, _)| kind).collect(),
+            timings,
+        };
         outputs.check_distinct()?;
         Ok(outputs)
     }

@@ -17,18 +17,58 @@ fn channel_names(aov: Aov) -> &'static [&'static str] {
 
 /// Writes the image.
 pub fn write(file: &mut (impl io::Write + io::Seek), aov: Aov, image: &limpid_headless::Image) -> io::Result<()> {
-    let channels = channel_names(aov).iter().enumerate().map(|(index, name)| {
-        let samples = image.values.iter().skip(index).step_by(image.channels).copied().collect();
-        AnyChannel::new(*name, FlatSamples::F32(samples))
+    write_channels(file, image.size, channels(image, channel_names(aov).iter().map(|name| (*name).to_owned())))
+}
+
+/// The layer that a buffer is in a file of several: the channels of the picture itself have no layer's name before them.
+pub fn layer_name(aov: Aov) -> Option<&'static str> {
+    match aov {
+        Aov::Picture => None,
+        _ => Some(aov.name()),
+    }
+}
+
+/// Writes several buffers of one size as layers of one image: `R`, `G`, `B`, `A` of the picture, then `depth.Z`,
+/// `normal.X` and so on.
+pub fn write_layers(
+    file: &mut (impl io::Write + io::Seek),
+    layers: &[(Aov, &limpid_headless::Image)],
+) -> io::Result<()> {
+    let size = layers.first().map_or([1, 1], |(_, image)| image.size);
+    let channels = layers.iter().flat_map(|(aov, image)| {
+        let names = channel_names(*aov).iter().map(|name| match layer_name(*aov) {
+            Some(layer) => format!("{layer}.{name}"),
+            None => (*name).to_owned(),
+        });
+        channels(image, names)
     });
+    write_channels(file, size, channels.collect())
+}
+
+fn channels(
+    image: &limpid_headless::Image,
+    names: impl Iterator<Item = String>,
+) -> SmallVec<[AnyChannel<FlatSamples>; 4]> {
+    let channel = |(index, name): (usize, String)| {
+        let samples = image.values.iter().skip(index).step_by(image.channels).copied().collect();
+        AnyChannel::new(name.as_str(), FlatSamples::F32(samples))
+    };
+    names.enumerate().map(channel).collect()
+}
+
+fn write_channels(
+    file: &mut (impl io::Write + io::Seek),
+    size: [u32; 2],
+    channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
+) -> io::Result<()> {
     let encoding = Encoding {
         compression: Compression::ZIP16,
         blocks: Blocks::ScanLines,
         // Threads must not decide the order of the blocks.
         line_order: LineOrder::Increasing,
     };
-    let size = (image.size[0] as usize, image.size[1] as usize);
-    let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels.collect()));
+    let size = (size[0] as usize, size[1] as usize);
+    let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
     Image::from_layer(layer).write().to_buffered(file).map_err(io::Error::other)
 }
 

@@ -36,6 +36,11 @@ pub fn write_picture(path: &Path, picture: &Picture, opaque: bool) -> Result<(),
     write_atomically(path, |file| png::write(file, picture, opaque))
 }
 
+/// Writes a picture and its buffers as layers of one OpenEXR file.
+pub fn write_layers(path: &Path, layers: &[(Aov, &Image)]) -> Result<(), Failure> {
+    write_atomically(path, |file| exr::write_layers(file, layers))
+}
+
 /// Writes one buffer.
 pub fn write_aov(path: &Path, format: AovFormat, aov: Aov, image: &Image) -> Result<(), Failure> {
     write_atomically(path, |file| match format {
