@@ -22,6 +22,12 @@ pub enum Command {
     Render(Box<RenderArguments>),
     /// Say what particle files hold
     Info(InfoArguments),
+    /// List the looks that --look knows, or print one as a file to copy and change
+    Looks {
+        /// The look to print
+        #[arg(value_name = "NAME")]
+        name: Option<String>,
+    },
     /// List what this machine can render on
     Adapters,
 }

@@ -3,8 +3,10 @@
 mod adapters;
 mod cli;
 mod console;
+mod environment;
 mod failure;
 mod info;
+mod looks;
 mod number;
 mod quiet_driver;
 mod render;
@@ -30,6 +32,7 @@ fn run() -> Result<(), Failure> {
         Parsed::Text(text) => console::print(&text),
         Parsed::Command(Command::Render(arguments)) => render::run(arguments),
         Parsed::Command(Command::Info(arguments)) => info::run(&arguments),
+        Parsed::Command(Command::Looks { name }) => looks::run(name.as_deref()),
         Parsed::Command(Command::Adapters) => adapters::run(),
     }
 }

@@ -1,6 +1,6 @@
 //! Buffers beside the picture.
 
-use limpid::{Filter, FrameBuffers, Settings, Smoothing, View};
+use limpid::{Detail, Filter, Foam, FrameBuffers, Settings, Shading, Smoothing, View};
 
 /// A buffer that can be read back beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +27,10 @@ pub enum Aov {
     Noise,
     /// Opacity of the foam on the surface.
     Foam,
+    /// Share of red, green and blue light that goes straight through the liquid along the ray, 0 to 1.
+    Transmittance,
+    /// Base colour of what the liquid scatters, linear RGB; 0 for a clear one.
+    Albedo,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
     /// Linear premultiplied RGBA of the whole picture, with what is behind and before the fluid, before tone mapping.
@@ -38,7 +42,7 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -50,6 +54,8 @@ impl Aov {
         Self::Curvature,
         Self::Noise,
         Self::Foam,
+        Self::Transmittance,
+        Self::Albedo,
         Self::Color,
         Self::Picture,
     ];
@@ -68,6 +74,8 @@ impl Aov {
             Self::Curvature => "curvature",
             Self::Noise => "noise",
             Self::Foam => "foam",
+            Self::Transmittance => "transmittance",
+            Self::Albedo => "albedo",
             Self::Color => "color",
             Self::Picture => "picture",
         }
@@ -78,14 +86,19 @@ impl Aov {
         match self {
             Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
             Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
-            Self::RawNormal | Self::Normal => 3,
+            Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo => 3,
             Self::Color | Self::Picture => 4,
         }
     }
 
-    /// Whether it is of a frame of its own, without filter and blur.
-    pub(crate) fn is_unsmoothed(self) -> bool {
-        matches!(self, Self::RawThickness | Self::RawNormal | Self::RawClay)
+    /// The settings of the frame that it is of, where those are not the picture's own.
+    pub(crate) fn settings(self, settings: &Settings) -> Option<Settings> {
+        match self {
+            Self::RawThickness | Self::RawNormal | Self::RawClay => Some(unsmoothed(settings)),
+            Self::Transmittance => Some(shaded_as(settings, Shading::Transmittance)),
+            Self::Albedo => Some(shaded_as(settings, Shading::Albedo)),
+            _ => None,
+        }
     }
 
     /// The GPU buffer that holds it, and its 4-byte words per pixel. `curvature` is there for the one that needs it.
@@ -98,7 +111,7 @@ impl Aov {
             Self::Curvature => (curvature.expect("made for this image"), 1),
             Self::RawDepth => (buffers.raw_nearness, 1),
             Self::Depth => (buffers.nearness, 1),
-            Self::Color => (buffers.shaded, 4),
+            Self::Color | Self::Transmittance | Self::Albedo => (buffers.shaded, 4),
             _ => (buffers.surface, 4),
         }
     }
@@ -115,6 +128,7 @@ impl Aov {
             Self::Curvature | Self::Noise | Self::Foam => {
                 words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
             }
+            Self::Transmittance | Self::Albedo => inside(words, nearness, of_whole_pixel),
             Self::Color => inside(words, nearness, |pixel| *pixel),
             Self::Picture => words.to_vec(),
         };
@@ -123,8 +137,13 @@ impl Aov {
 }
 
 /// The same look without filter and blur.
-pub(crate) fn unsmoothed(settings: &Settings) -> Settings {
+fn unsmoothed(settings: &Settings) -> Settings {
     Settings { smoothing: Smoothing::of(Filter::None), thickness_blur: false, ..*settings }
+}
+
+/// The bare liquid, shaded another way.
+fn shaded_as(settings: &Settings, shading: Shading) -> Settings {
+    Settings { shading, detail: Detail { foam: Foam::Off, ..settings.detail }, ..*settings }
 }
 
 /// The wanted part of each pixel, 0 where there is no fluid.
@@ -132,6 +151,12 @@ fn inside<const N: usize>(words: &[f32], nearness: &[f32], part: impl Fn(&[f32; 
     let (pixels, _) = words.as_chunks::<4>();
     let value = |(pixel, nearness): (&[f32; 4], &f32)| if *nearness > 0.0 { part(pixel) } else { [0.0; N] };
     pixels.iter().zip(nearness).flat_map(value).collect()
+}
+
+/// What a pixel that is partly fluid holds of the fluid.
+fn of_whole_pixel(premultiplied: &[f32; 4]) -> [f32; 3] {
+    let [rgb @ .., coverage] = *premultiplied;
+    rgb.map(|value| if coverage > 0.0 { value / coverage } else { 0.0 })
 }
 
 /// Rows of float32 pixels, row 0 at the top, channels interleaved.

@@ -1,9 +1,9 @@
 //! A whole picture, off screen: the scene, the fluid in it, the display transform, everything read back.
 
-use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, aov, readback};
+use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, readback};
 use limpid::{
-    Backdrop, BackdropFrame, Bodies, Display, FloorShadow, Frame, Layer, Look, Particles, PassTime, Profiler, Renderer,
-    Scene, TargetFormat,
+    Backdrop, BackdropFrame, Bodies, Display, EnvironmentMap, FloorShadow, Frame, Layer, Look, Particles, PassTime,
+    Profiler, Renderer, Scene, TargetFormat,
 };
 use std::time::Instant;
 
@@ -105,6 +105,21 @@ impl Offscreen {
         &self.gpu
     }
 
+    /// What the pictures to come have for a sky: an equirectangular picture
+    /// ([`EnvironmentMap::equirectangular`]); None: the procedural one.
+    ///
+    /// # Errors
+    /// Light that is not finite or negative, or a wrong number of texels.
+    pub fn set_environment(&mut self, picture: Option<&Image>) -> Result<(), Error> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        let map = |image: &Image| {
+            let texels: Vec<[f32; 3]> = image.values.chunks_exact(image.channels).map(|v| [v[0], v[1], v[2]]).collect();
+            EnvironmentMap::equirectangular(device, queue, image.size, &texels)
+        };
+        self.renderer.set_environment_map(picture.map(map).transpose()?);
+        Ok(())
+    }
+
     /// Renders one picture and reads it back with the buffers asked for.
     ///
     /// # Errors
@@ -113,12 +128,19 @@ impl Offscreen {
         let particles = self.upload(shot)?;
         self.submit(shot, &particles)?;
         let rgba = self.read_picture()?;
-        let (unsmoothed, smoothed): (Vec<Aov>, Vec<Aov>) = aovs.iter().partition(|aov| aov.is_unsmoothed());
-        let mut images = self.read_images(shot, &smoothed)?;
-        if !unsmoothed.is_empty() {
-            let settings = aov::unsmoothed(&shot.settings);
-            self.submit(&Shot { settings, ..*shot }, &particles)?;
-            images.extend(self.read_images(shot, &unsmoothed)?);
+        let (others, own): (Vec<Aov>, Vec<Aov>) = aovs.iter().partition(|aov| aov.settings(&shot.settings).is_some());
+        let mut images = self.read_images(shot, &own)?;
+        let settings: Vec<_> = others.iter().filter_map(|aov| aov.settings(&shot.settings)).collect();
+        for (i, settings_i) in settings.iter().enumerate() {
+            // Buffers of the same frame are read together.
+            if settings[..i].contains(settings_i) {
+                continue;
+            }
+            let of_it: Vec<Aov> =
+                others.iter().zip(&settings).filter(|(_, s)| *s == settings_i).map(|(a, _)| *a).collect();
+            let shot = Shot { settings: *settings_i, ..*shot };
+            self.submit(&shot, &particles)?;
+            images.extend(self.read_images(&shot, &of_it)?);
         }
         let image = |aov: &Aov| images.iter().find(|(kind, _)| kind == aov).map(|(_, image)| image.clone());
         Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().filter_map(image).collect() })
@@ -246,7 +268,7 @@ impl Offscreen {
         });
         let Gpu { device, queue, .. } = &self.gpu;
         let shadow = self.renderer.floor_shadow();
-        let frame = surroundings_of(shot, shadow.as_ref());
+        let frame = surroundings_of(shot, shadow.as_ref(), self.renderer.environment_map());
         if shot.background == Background::Scene {
             self.backdrop.draw(device, queue, &mut pass, &frame);
         }
@@ -276,7 +298,7 @@ impl Offscreen {
             device,
             queue,
             &mut pass,
-            &surroundings_of(shot, shadow.as_ref()),
+            &surroundings_of(shot, shadow.as_ref(), self.renderer.environment_map()),
             shot.bodies,
             Layer::NearGlass,
         );
@@ -357,8 +379,12 @@ impl Offscreen {
     }
 }
 
-fn surroundings_of<'a>(shot: &'a Shot<'_>, shadow: Option<&'a FloorShadow<'a>>) -> BackdropFrame<'a> {
-    BackdropFrame { view: &shot.view, size: shot.size, environment: &shot.environment, shadow }
+fn surroundings_of<'a>(
+    shot: &'a Shot<'_>,
+    shadow: Option<&'a FloorShadow<'a>>,
+    map: Option<&'a EnvironmentMap>,
+) -> BackdropFrame<'a> {
+    BackdropFrame { view: &shot.view, size: shot.size, environment: &shot.environment, shadow, map }
 }
 
 fn depth_attachment(view: &wgpu::TextureView, load: wgpu::LoadOp<f32>) -> wgpu::RenderPassDepthStencilAttachment<'_> {

@@ -3,10 +3,10 @@
 use crate::environment::EnvironmentUniform;
 use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::module;
-use crate::renderer::{SettingsUniform, TargetFormat, frame_layout};
+use crate::renderer::{Nothing, SettingsUniform, TargetFormat, frame_layout};
 use crate::shadow::FloorShadow;
 use crate::view::ViewUniform;
-use crate::{Environment, Scale, View};
+use crate::{Environment, EnvironmentMap, Scale, View};
 use glam::DVec3;
 
 /// One picture of the surroundings.
@@ -20,6 +20,8 @@ pub struct BackdropFrame<'a> {
     pub environment: &'a Environment,
     /// The fluid's shadow on the floor, if there is one.
     pub shadow: Option<&'a FloorShadow<'a>>,
+    /// What takes the place of the sky; None: the procedural one.
+    pub map: Option<&'a EnvironmentMap>,
 }
 
 /// Draws an [`Environment`] where a host has no scene of its own. Writes reversed depth: build the view with
@@ -29,6 +31,7 @@ pub struct Backdrop {
     frame_group: wgpu::BindGroup,
     layout: wgpu::BindGroupLayout,
     no_shadow: wgpu::Buffer,
+    no_map: wgpu::TextureView,
     view: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
@@ -40,7 +43,7 @@ impl Backdrop {
         let frame = frame_layout(device);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("backdrop"),
-            entries: &slot_entries(&[Slot::Uniform, Slot::Read], wgpu::ShaderStages::FRAGMENT),
+            entries: &slot_entries(&[Slot::Uniform, Slot::Read, Slot::Color], wgpu::ShaderStages::FRAGMENT),
         });
         let view = uniform_buffer::<ViewUniform>(device, "backdrop view");
         // Its own depth orders it: the first thing drawn, and the sky is as far as an empty target.
@@ -51,6 +54,7 @@ impl Backdrop {
         Self {
             pipeline: target.fullscreen_pipeline(device, &module, "backdrop", &[Some(&frame), Some(&layout)], None),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
+            no_map: Nothing::new(device).color,
             no_shadow: storage_buffer(device, "no shadow", 4),
             layout,
             view,
@@ -66,15 +70,16 @@ impl Backdrop {
         pass: &mut wgpu::RenderPass<'_>,
         frame: &BackdropFrame<'_>,
     ) {
-        let BackdropFrame { view, size, environment, shadow } = *frame;
+        let BackdropFrame { view, size, environment, shadow, map } = *frame;
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
-        queue.write_buffer(
-            &self.environment,
-            0,
-            bytemuck::bytes_of(&environment.uniform(view, shadow.map(|s| &s.tint))),
-        );
-        let map = shadow.map_or(&self.no_shadow, |shadow| shadow.map);
-        let group = bind(device, &self.layout, &[self.environment.as_entire_binding(), map.as_entire_binding()]);
+        let uniform = environment.uniform(view, shadow.map(|shadow| &shadow.tint), map);
+        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&uniform));
+        let resources = [
+            self.environment.as_entire_binding(),
+            shadow.map_or(&self.no_shadow, |shadow| shadow.map).as_entire_binding(),
+            wgpu::BindingResource::TextureView(map.map_or(&self.no_map, |map| &map.view)),
+        ];
+        let group = bind(device, &self.layout, &resources);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.frame_group, &[]);
         pass.set_bind_group(1, &group, &[]);

@@ -2,6 +2,7 @@
 
 @group(1) @binding(0) var<uniform> environment: Environment;
 @group(1) @binding(1) var<storage, read> shadow: array<f32>;
+@group(1) @binding(2) var environment_map: texture_2d<f32>;
 
 struct Fragment {
     @location(0) color: vec4f,

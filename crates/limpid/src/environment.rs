@@ -1,9 +1,9 @@
 //! The surroundings that light the fluid: a procedural floor, sky and sun that flatter water with no input at all.
 
-use crate::View;
 use crate::shadow::SHADOW_TEXELS;
+use crate::{EnvironmentMap, View};
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 /// Procedural surroundings, in world space. Colours are linear; 1 is a white wall in the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Environment {
     pub up: DVec3,
     /// Unit vector towards the sun.
     pub sun: DVec3,
+    /// Strength of the sun, default 1; 0: none, and no highlight.
+    pub sun_strength: f64,
     /// The floor's plane: a point p is on it where dot(p, up) is this. None: sky below the horizon too.
     pub floor: Option<f64>,
     /// The middle of the picture's subject.
@@ -31,11 +33,17 @@ impl Environment {
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
         // A subject without size gets one, so that nothing is divided by 0.
         let extent = Some(0.5 * (max - min).length()).filter(|extent| *extent > 0.0).unwrap_or(1.0);
-        Self { up, sun, floor: Some(floor), center, extent }
+        Self { up, sun, sun_strength: 1.0, floor: Some(floor), center, extent }
     }
 
     /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
-    pub(crate) fn uniform(&self, view: &View, shadow: Option<&ShadowTint>) -> EnvironmentUniform {
+    pub(crate) fn uniform(
+        &self,
+        view: &View,
+        shadow: Option<&ShadowTint>,
+        map: Option<&EnvironmentMap>,
+    ) -> EnvironmentUniform {
+        let tilt = DQuat::from_rotation_arc(DVec3::Y, self.up);
         let eye = view.eye();
         let sun_east = self.sun.any_orthonormal_vector();
         EnvironmentUniform {
@@ -52,7 +60,11 @@ impl Environment {
             sun_north: self.sun.cross(sun_east).as_vec3(),
             shadow_radius: shadow.map_or(1.0, |tint| tint.radius),
             shadow_absorption: shadow.map_or(Vec3::ZERO, |tint| tint.absorption.into()),
-            padding: 0.0,
+            sun_strength: self.sun_strength as f32,
+            map_east: (tilt * DVec3::X).as_vec3(),
+            map_levels: map.map_or(0, |map| map.lobes.levels),
+            map_middle: (tilt * DVec3::NEG_Z).as_vec3(),
+            map_alpha: map.map_or(1.0, |map| map.lobes.first_alpha),
         }
     }
 
@@ -91,5 +103,9 @@ pub(crate) struct EnvironmentUniform {
     pub sun_north: Vec3,
     pub shadow_radius: f32,
     pub shadow_absorption: Vec3,
-    pub padding: f32,
+    pub sun_strength: f32,
+    pub map_east: Vec3,
+    pub map_levels: u32,
+    pub map_middle: Vec3,
+    pub map_alpha: f32,
 }

@@ -1,5 +1,7 @@
 // Procedural surroundings: a floor of pale tiles, a sky with a little cloud, a sun. Colours are linear.
-// Whoever includes this binds `environment` and `shadow`, the thickness of the fluid as the sun sees it (shadow.rs).
+// Where there is an environment map (environment_map.rs), it takes the sky's place.
+// Whoever includes this binds `environment`, `shadow`, the thickness of the fluid as the sun sees it (shadow.rs), and
+// `environment_map`, a stand-in where there is none.
 
 struct Environment {
     up: vec3f,
@@ -15,11 +17,60 @@ struct Environment {
     sun_north: vec3f,
     shadow_radius: f32, // r of the fluid that casts it
     shadow_absorption: vec3f, // per world unit
+    sun_strength: f32,
+    map_east: vec3f, // of the map's middle
+    map_levels: u32, // 0: no map
+    map_middle: vec3f,
+    map_alpha: f32, // GGX's, of level 1; each level after it has twice as much
 }
 
 const SUN_LIGHT: vec3f = vec3f(1.0, 0.94, 0.84);
 
-fn sky(direction: vec3f) -> vec3f {
+// A texel of a level `size` wide and high, whose rows start at `top`.
+fn map_texel(at: vec2i, size: vec2i, top: i32) -> vec3f {
+    let texel = vec2i((at.x + size.x) % size.x, top + clamp(at.y, 0, size.y - 1));
+    return textureLoad(environment_map, texel, 0).rgb;
+}
+
+// A level of the map, bilinear: its format need not be filterable. Each level lies under the one before.
+fn map_level(direction: vec3f, level: u32) -> vec3f {
+    let sharpest = vec2i(textureDimensions(environment_map)) / vec2i(1, 2);
+    let size = max(sharpest >> vec2u(level), vec2i(1));
+    let top = 2 * (sharpest.y - size.y);
+    let longitude = atan2(dot(direction, environment.map_east), dot(direction, environment.map_middle));
+    let colatitude = acos(clamp(dot(direction, environment.up), -1.0, 1.0));
+    let at = vec2f(longitude / 6.2831853 + 0.5, colatitude / 3.14159265) * vec2f(size) - 0.5;
+    let low = vec2i(floor(at));
+    let part = at - floor(at);
+    let upper = mix(map_texel(low, size, top), map_texel(low + vec2i(1, 0), size, top), part.x);
+    let lower = mix(map_texel(low + vec2i(0, 1), size, top), map_texel(low + vec2i(1, 1), size, top), part.x);
+    return mix(upper, lower, part.y);
+}
+
+// The map's light about a direction, from a lobe of GGX's `alpha`. A loop, since CPUs run both sides of a branch: nothing
+// is done where there is no map.
+fn map_light(direction: vec3f, alpha: f32) -> vec3f {
+    let of_first = alpha / environment.map_alpha;
+    let last = max(environment.map_levels, 1u) - 1u;
+    let blur = min(select(1.0 + log2(max(of_first, 1.0)), of_first, of_first < 1.0), f32(last));
+    var light = vec3f(0.0);
+    for (var i = 0u; i < min(environment.map_levels, 2u); i++) {
+        let level = min(u32(blur) + i, last);
+        let share = select(1.0 - fract(blur), fract(blur), i == 1u);
+        light += share * map_level(direction, level);
+    }
+    return light;
+}
+
+// Light from above the floor; `alpha` is how far it is blurred.
+fn sky(direction: vec3f, alpha: f32) -> vec3f {
+    if environment.map_levels > 0u {
+        return map_light(direction, alpha);
+    }
+    return procedural_sky(direction);
+}
+
+fn procedural_sky(direction: vec3f) -> vec3f {
     let height = max(dot(direction, environment.up), 0.0);
     var color = mix(vec3f(0.66, 0.72, 0.78), vec3f(0.13, 0.27, 0.50), height * (2.0 - height));
     // Wisps of cloud: cheap waves bent by waves.
@@ -29,7 +80,16 @@ fn sky(direction: vec3f) -> vec3f {
     let cloud = 0.5 + 0.5 * sin(bent.x) * sin(bent.y);
     color = mix(color, vec3f(1.05), smoothstep(0.45, 1.0, cloud) * smoothstep(0.05, 0.35, height) * 0.8);
     let toward_sun = max(dot(direction, environment.sun), 0.0);
-    return color + SUN_LIGHT * (0.25 * pow(toward_sun, 8.0) + 0.6 * pow(toward_sun, 96.0));
+    return color + SUN_LIGHT * (environment.sun_strength * (0.25 * pow(toward_sun, 8.0) + 0.6 * pow(toward_sun, 96.0)));
+}
+
+// Light that falls on a white surface of this normal, over pi: what comes from all around, and the sun. Liquid is lit some
+// way round its edge, since it scatters light on its way through.
+fn light_on(normal: vec3f) -> vec3f {
+    let upward = 0.5 + 0.5 * dot(normal, environment.up);
+    let around = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.50, 0.57, 0.66), upward);
+    let facing = max((dot(normal, environment.sun) + 0.5) / 1.5, 0.0);
+    return select(around, map_light(normal, 1.0), environment.map_levels > 0u) + SUN_LIGHT * (0.7 * environment.sun_strength * facing);
 }
 
 // Share of white squares of a checkerboard within a box of `width` tiles around a point.
@@ -69,7 +129,7 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let height = environment.eye_height + dot(from_eye, environment.up);
     let floor_seen = max(descent, 0.0) * height > 0.0;
     // The floor fades into the sky above it. One call for both: CPUs run both sides of a branch.
-    let behind = sky(normalize(direction + select(0.0, descent, floor_seen) * environment.up));
+    let behind = sky(normalize(direction + select(0.0, descent, floor_seen) * environment.up), 0.5 * spread);
     if !floor_seen {
         return behind;
     }
@@ -79,9 +139,10 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let tiles = vec2f(dot(at, environment.east), dot(at, north)) / environment.tile;
     let width = spread * distance / environment.tile;
     let stone = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.52, 0.51, 0.495), checker(tiles, vec2f(width, width / descent)));
-    var light = vec3f(1.0);
+    var sun = vec3f(environment.sun_strength);
     if environment.shadow_texels > 0u {
-        light = 0.45 + 0.55 * sunlight(at);
+        sun *= sunlight(at);
     }
+    let light = select(vec3f(0.45), map_light(environment.up, 1.0), environment.map_levels > 0u) + 0.55 * sun;
     return mix(behind, stone * light, exp(-environment.tile_fade * dot(tiles, tiles)));
 }

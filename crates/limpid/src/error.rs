@@ -31,4 +31,7 @@ pub enum Error {
     /// Particle arrays that do not fit together or hold numbers that are not finite.
     #[error("the particles are unusable: {0}")]
     Particles(String),
+    /// An environment map that is no light.
+    #[error("the environment map is unusable: {0}")]
+    Environment(String),
 }

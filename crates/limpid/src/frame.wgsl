@@ -39,7 +39,8 @@ struct Settings {
     background: u32, // shade.wgsl's BACKGROUND_*
     picture_size: vec2u, // the host's pixels
     fluid_scale: f32, // of them along a pixel of the fluid's images
-    padding: f32,
+    shading: u32, // shade.wgsl's SHADING_*
+    fixed_thickness: f32, // world units; 0: the fluid's own
 }
 
 @group(0) @binding(0) var<uniform> view: View;

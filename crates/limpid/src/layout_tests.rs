@@ -15,6 +15,8 @@ const SHADE: &str = concat!(
     include_str!("passes/tile_pixel.wgsl"),
     include_str!("environment.wgsl"),
     include_str!("scene_depth.wgsl"),
+    include_str!("passes/interface.wgsl"),
+    include_str!("passes/body.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
 
@@ -79,6 +81,8 @@ fn settings() {
         background,
         picture_size,
         fluid_scale,
+        shading,
+        fixed_thickness,
         padding,
     });
     assert_same(rust, wgsl_layout(SHADE, "Settings"));
@@ -86,8 +90,21 @@ fn settings() {
 
 #[test]
 fn optics() {
-    let rust =
-        rust_layout!(OpticsUniform { absorption, refractive_index, color, refraction, specular, shininess, padding });
+    let rust = rust_layout!(OpticsUniform {
+        absorption,
+        refractive_index,
+        color,
+        refraction,
+        scattering,
+        specular,
+        albedo,
+        shininess,
+        metal,
+        roughness,
+        fresnel,
+        is_opaque,
+        padding,
+    });
     assert_same(rust, wgsl_layout(SHADE, "Optics"));
 }
 
@@ -128,7 +145,11 @@ fn environment() {
         sun_north,
         shadow_radius,
         shadow_absorption,
-        padding
+        sun_strength,
+        map_east,
+        map_levels,
+        map_middle,
+        map_alpha,
     });
     assert_same(rust, wgsl_layout(SHADE, "Environment"));
 }

@@ -9,6 +9,7 @@ mod bodies;
 mod detail;
 mod display;
 mod environment;
+mod environment_map;
 mod error;
 mod framing;
 mod gpu;
@@ -29,12 +30,15 @@ pub use bodies::{Bodies, Body, Layer, Look, Material, Mesh, PartSlices, TextureS
 pub use detail::{Detail, Foam};
 pub use display::{Display, ToneMap};
 pub use environment::Environment;
+pub use environment_map::EnvironmentMap;
 pub use error::Error;
 pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
 pub use motion::Motion;
 pub use particles::{ParticleSlices, Particles, Radius};
 pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, Renderer, Scene, TargetFormat};
-pub use settings::{Absorption, Anisotropy, CurvatureFlow, Filter, Optics, Scale, Settings, Smoothing};
+pub use settings::{
+    Absorption, Anisotropy, CurvatureFlow, Filter, Fresnel, Optics, Scale, Settings, Shading, Smoothing,
+};
 pub use shadow::FloorShadow;
 pub use view::View;

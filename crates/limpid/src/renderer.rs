@@ -9,7 +9,7 @@ use crate::passes::{
 use crate::shadow::{FloorShadow, Shadow};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
-use crate::{Environment, Error, Foam, Optics, Particles, Settings, Smoothing, View};
+use crate::{Environment, EnvironmentMap, Error, Foam, Optics, Particles, Settings, Smoothing, View};
 use bytemuck::{Pod, Zeroable};
 
 /// The host's render target that [`Renderer::composite`] draws into.
@@ -121,6 +121,8 @@ pub(crate) struct SettingsUniform {
     pub background: u32,
     pub picture_size: [u32; 2],
     pub fluid_scale: f32,
+    pub shading: u32,
+    pub fixed_thickness: f32,
     pub padding: f32,
 }
 
@@ -146,6 +148,7 @@ pub struct Renderer {
     shadow: Shadow,
     /// Of the shadow cast for the frame to come.
     shadow_tint: Option<ShadowTint>,
+    environment_map: Option<EnvironmentMap>,
     nothing: Nothing,
     targets: Option<Targets>,
     prepared: Option<Prepared>,
@@ -164,13 +167,13 @@ struct Prepared {
 }
 
 /// Stand-ins for a scene's textures where there is no scene.
-struct Nothing {
-    color: wgpu::TextureView,
-    depth: wgpu::TextureView,
+pub(crate) struct Nothing {
+    pub color: wgpu::TextureView,
+    pub depth: wgpu::TextureView,
 }
 
 impl Nothing {
-    fn new(device: &wgpu::Device) -> Self {
+    pub fn new(device: &wgpu::Device) -> Self {
         let texture = |format| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
                 label: Some("no scene"),
@@ -216,12 +219,23 @@ impl Renderer {
             curvature: Curvature::new(device, &layout),
             shadow: Shadow::new(device, &layout),
             shadow_tint: None,
+            environment_map: None,
             nothing: Nothing::new(device),
             targets: None,
             prepared: None,
             profiler: None,
             frame_layout: layout,
         }
+    }
+
+    /// What the frames to come reflect in place of the procedural sky; None: that sky.
+    pub fn set_environment_map(&mut self, map: Option<EnvironmentMap>) {
+        self.environment_map = map;
+    }
+
+    /// The environment map in use.
+    pub fn environment_map(&self) -> Option<&EnvironmentMap> {
+        self.environment_map.as_ref()
     }
 
     /// Measures the passes of the frames to come; None stops. Returns the one there was.
@@ -249,7 +263,7 @@ impl Renderer {
         let recorder =
             &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
         self.shadow.encode(recorder, queue, &self.thickness, particles, environment);
-        let absorption = optics.absorption.per_world(particles.reference_radius);
+        let absorption = optics.extinction_per_world(particles.reference_radius);
         self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius });
     }
 
@@ -275,6 +289,7 @@ impl Renderer {
         let scene = SceneViews {
             color: frame.scene.color.unwrap_or(&self.nothing.color),
             depth: frame.scene.depth.unwrap_or(&self.nothing.depth),
+            environment_map: self.environment_map.as_ref().map_or(&self.nothing.color, |map| &map.view),
         };
         let in_scene = frame.scene.depth.is_some();
         let targets = match self.targets.take() {
@@ -293,7 +308,8 @@ impl Renderer {
         self.ellipsoids.write(queue, particles, &settings.anisotropy);
         let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
         let shadow = self.shadow_tint.take();
-        self.shade.write(queue, &optics, &frame.environment.uniform(frame.view, shadow.as_ref()));
+        let environment = frame.environment.uniform(frame.view, shadow.as_ref(), self.environment_map.as_ref());
+        self.shade.write(queue, &optics, &environment);
         let frame_group =
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
 
@@ -307,9 +323,11 @@ impl Renderer {
             &particles.chunks
         };
         self.tiles.encode(recorder, &targets);
-        self.thickness.splat(recorder, "splat-thickness", balls, frame.scene.depth, &targets.thickness);
-        if settings.thickness_blur {
-            self.thickness.blur(recorder, &targets);
+        if settings.fixed_thickness.is_none() {
+            self.thickness.splat(recorder, "splat-thickness", balls, frame.scene.depth, &targets.thickness);
+            if settings.thickness_blur {
+                self.thickness.blur(recorder, &targets);
+            }
         }
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, scene.depth, &targets);
@@ -447,6 +465,8 @@ fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
         background: u32::from(scene.color.is_some()),
         picture_size: frame.size,
         fluid_scale,
+        shading: settings.shading as u32,
+        fixed_thickness: settings.fixed_thickness.unwrap_or(0.0) * particles.reference_radius,
         padding: 0.0,
     }
 }

@@ -16,6 +16,9 @@ pub struct Settings {
     pub thickness_scale: Scale,
     /// Whether the thickness is blurred within the fluid, default true; false shows the plain sum.
     pub thickness_blur: bool,
+    /// Every pixel of the fluid counts as this many r thick, 0.001 to 1000000, and the thickness is neither measured nor
+    /// blurred: the cheap mode of Babylon.js. None, the default: the fluid's own thickness.
+    pub fixed_thickness: Option<f32>,
     /// Where the fluid is thinner than this many r the background shows; 0, the default, shows all fluid.
     pub min_thickness: f32,
     /// How particles are stretched along the surface.
@@ -32,6 +35,8 @@ pub struct Settings {
     pub detail: Detail,
     /// What light does in and on the liquid.
     pub optics: Optics,
+    /// What shading computes, default the colour.
+    pub shading: Shading,
 }
 
 impl Default for Settings {
@@ -41,6 +46,7 @@ impl Default for Settings {
             density_threshold: 0.0,
             thickness_scale: Scale::Half,
             thickness_blur: true,
+            fixed_thickness: None,
             min_thickness: 0.0,
             anisotropy: Anisotropy::default(),
             smoothing: Smoothing::default().for_ellipsoids(),
@@ -48,6 +54,7 @@ impl Default for Settings {
             normal_step: 3.0,
             detail: Detail::default(),
             optics: Optics::default(),
+            shading: Shading::default(),
         }
     }
 }
@@ -58,6 +65,19 @@ impl Settings {
         let anisotropy = Anisotropy { enabled: false, ..Anisotropy::default() };
         Self { anisotropy, smoothing: Smoothing::default(), ..Self::default() }
     }
+}
+
+/// What of the light [`crate::FrameBuffers::shaded`] holds, premultiplied by how much of the pixel is fluid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// The fluid as it is seen.
+    #[default]
+    Color,
+    /// The share of red, green and blue light that goes straight through the body of liquid along the view ray (Beer and
+    /// Lambert), surfaces left aside; the last channel is the coverage.
+    Transmittance,
+    /// The base colour of what the liquid scatters; 0 for a clear one. The last channel is the coverage.
+    Albedo,
 }
 
 /// Ellipsoids in place of spheres (Xu et al. 2022, after Yu and Turk 2013): each particle is stretched along the surface as
@@ -243,10 +263,25 @@ impl Smoothing {
 pub struct Optics {
     /// Index of refraction, 1 to 3, default 1.333 (water).
     pub refractive_index: f32,
+    /// How the index decides what is reflected, default exact.
+    pub fresnel: Fresnel,
+    /// Reflectance of a metal's surface at normal incidence, by Schlick's formula towards grazing angles; each 0 to 1,
+    /// default 0: no metal, reflectance by the index.
+    pub metal: [f32; 3],
+    /// What blurs mirror images of the surroundings: ripples too fine to see. 0 to 1, default 0.1; its square is the
+    /// alpha of the GGX distribution (Walter et al. 2007).
+    pub roughness: f32,
     /// Beer-Lambert absorption of red, green and blue; default (0.045, 0.015, 0.0075) per r.
     pub absorption: Absorption,
-    /// Linear colour of a body of liquid so deep that nothing shines through: C_fluid of Eq. 14;
-    /// each 0 to 1000, default (0.007, 0.048, 0.085).
+    /// How much of red, green and blue is scattered instead, in the unit of the absorption; each 0 or more, default 0: a
+    /// clear liquid. Scattered light is replaced by what falls in from around, so that milk is white.
+    pub scattering: [f32; 3],
+    /// Base colour of what is scattered, and of an opaque liquid; each 0 to 1, default 1.
+    pub albedo: [f32; 3],
+    /// Whether nothing shines through, however thin the liquid, default no.
+    pub opaque: bool,
+    /// Linear light that a body of liquid sends out by itself where it is so deep that nothing shines through: C_fluid of
+    /// Eq. 14; each 0 to 1000, default (0.007, 0.048, 0.085).
     pub color: [f32; 3],
     /// gamma of Eq. 15: how much of Snell's bend the background is shifted by; 0 to 4, default 0.5.
     pub refraction: f32,
@@ -260,7 +295,13 @@ impl Default for Optics {
     fn default() -> Self {
         Self {
             refractive_index: 1.333,
+            fresnel: Fresnel::default(),
+            metal: [0.0; 3],
+            roughness: 0.1,
             absorption: Absorption::PerRadius([0.045, 0.015, 0.0075]),
+            scattering: [0.0; 3],
+            albedo: [1.0; 3],
+            opaque: false,
             color: [0.007, 0.048, 0.085],
             refraction: 0.5,
             specular: 1.0,
@@ -269,7 +310,17 @@ impl Default for Optics {
     }
 }
 
-/// Beer-Lambert absorption coefficients of red, green and blue, each 0 or more.
+/// Reflectance of an interface between air and liquid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Fresnel {
+    /// Fresnel's equations for unpolarised light.
+    #[default]
+    Exact,
+    /// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", Eq. 15.
+    Schlick,
+}
+
+/// Beer-Lambert absorption coefficients of red, green and blue, each 0 or more, and their unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Absorption {
     /// Per particle radius of depth: the same look whatever the scene's unit.
@@ -288,6 +339,9 @@ impl Settings {
         within("splat scale", self.splat_scale, 0.5..=4.0, "from 0.5 to 4")?;
         within("density threshold", self.density_threshold, 0.0..=f32::MAX, "0 or more")?;
         within("min thickness", self.min_thickness, 0.0..=f32::MAX, "0 or more")?;
+        if let Some(thickness) = self.fixed_thickness {
+            within("fixed thickness", thickness, 0.001..=1e6, "from 0.001 to 1000000")?;
+        }
         within("normal step", self.normal_step, 0.01..=1000.0, "from 0.01 to 1000")?;
         within("kappa", anisotropy.kappa, 1.0..=16.0, "from 1 to 16")?;
         within("support", anisotropy.support, 2.0..=12.0, "from 2 to 12")?;
@@ -305,6 +359,16 @@ impl Settings {
         for value in absorption {
             within("absorption", value, 0.0..=f32::MAX, "0 or more")?;
         }
+        for value in optics.scattering {
+            within("scattering", value, 0.0..=f32::MAX, "0 or more")?;
+        }
+        for value in optics.albedo {
+            within("albedo", value, 0.0..=1.0, "from 0 to 1")?;
+        }
+        for value in optics.metal {
+            within("metal", value, 0.0..=1.0, "from 0 to 1")?;
+        }
+        within("roughness", optics.roughness, 0.0..=1.0, "from 0 to 1")?;
         for value in optics.color {
             within("color", value, 0.0..=1000.0, "from 0 to 1000")?;
         }
@@ -314,12 +378,31 @@ impl Settings {
     }
 }
 
+impl Optics {
+    /// Scattering coefficients per world unit for particles of this radius.
+    pub(crate) fn scattering_per_world(&self, radius: f32) -> [f32; 3] {
+        self.scattering.map(|k| k / self.absorption.unit(radius))
+    }
+
+    /// What a shadow loses of the light per world unit; opaque liquids let nothing of note through a ball.
+    pub(crate) fn extinction_per_world(&self, radius: f32) -> [f32; 3] {
+        let (absorption, scattering) = (self.absorption.per_world(radius), self.scattering_per_world(radius));
+        std::array::from_fn(|i| if self.opaque { 4.0 / radius } else { absorption[i] + scattering[i] })
+    }
+}
+
 impl Absorption {
     /// Coefficients per world unit for particles of this radius.
     pub(crate) fn per_world(self, radius: f32) -> [f32; 3] {
+        let (Self::PerRadius(rgb) | Self::PerWorld(rgb)) = self;
+        rgb.map(|k| k / self.unit(radius))
+    }
+
+    /// World units of depth that the coefficients are for.
+    fn unit(self, radius: f32) -> f32 {
         match self {
-            Self::PerRadius(rgb) => rgb.map(|k| k / radius),
-            Self::PerWorld(rgb) => rgb,
+            Self::PerRadius(_) => radius,
+            Self::PerWorld(_) => 1.0,
         }
     }
 }

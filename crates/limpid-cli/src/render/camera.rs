@@ -49,7 +49,13 @@ impl Stage {
         let floor = bounds.min.dot(up) - radius_world;
         let floor = props.lowest(up).map_or(floor, |lowest| lowest.min(floor));
         let lit = props.bounds().map_or(grown, |props| props.union(grown));
-        let environment = Environment::around(lit.min, lit.max, floor, up, pose.eye);
+        let around = Environment::around(lit.min, lit.max, floor, up, pose.eye);
+        let environment = Environment {
+            sun: sun(options)?.unwrap_or(around.sun),
+            sun_strength: options.sun(),
+            floor: around.floor.filter(|_| options.has_floor()),
+            ..around
+        };
         Ok(Self { view, environment })
     }
 
@@ -67,6 +73,13 @@ impl Stage {
             exposure: options.exposure(),
         }
     }
+}
+
+/// Where the sun is, if the options say so.
+fn sun(options: &Options) -> Result<Option<DVec3>, Failure> {
+    let Some(direction) = options.sun_direction else { return Ok(None) };
+    let toward = DVec3::from_array(direction).try_normalize();
+    toward.map(Some).ok_or_else(|| Failure::usage("--sun-direction has no length: give a direction, like 0,1,0"))
 }
 
 fn aspect(options: &Options) -> f64 {

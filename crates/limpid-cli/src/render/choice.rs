@@ -1,7 +1,7 @@
 //! Options that are one of a few names. Each list of names is here and nowhere else.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use limpid::{CurvatureFlow, Filter, Foam, Scale};
+use limpid::{CurvatureFlow, Filter, Foam, Fresnel, Scale};
 use limpid_headless::{Aov, Background};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -26,6 +26,10 @@ impl Choice for Filter {
 
 impl Choice for CurvatureFlow {
     const ALL: &'static [(&'static str, Self)] = &[("implicit", Self::Implicit), ("explicit", Self::Explicit)];
+}
+
+impl Choice for Fresnel {
+    const ALL: &'static [(&'static str, Self)] = &[("exact", Self::Exact), ("schlick", Self::Schlick)];
 }
 
 impl Choice for bool {

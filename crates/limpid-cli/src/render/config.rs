@@ -1,6 +1,7 @@
 //! Layers of options: defaults, then a configuration file, then the command line.
 
 use super::limits::{self, Range};
+use super::look;
 use super::options::{ALTERNATIVES, Options};
 use crate::failure::Failure;
 use crate::number::short;
@@ -25,6 +26,9 @@ pub fn effective(flags: &Options, file: Option<&Path>) -> Result<Options, Failur
 fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
     let as_table = |options: &Options| Table::try_from(options).map_err(|error| error.to_string());
     let below: Options = table.clone().try_into().map_err(|error: toml::de::Error| error.message().to_owned())?;
+    if let Some(name) = &layer.look {
+        overlay(table, &look::read(name)?)?;
+    }
     let (implied, layer) = (as_table(&layer.implied(&below))?, as_table(layer)?);
     for [one, other] in ALTERNATIVES {
         match (layer.contains_key(one), layer.contains_key(other)) {
@@ -46,11 +50,16 @@ fn in_file(path: &Path, problem: &str) -> Failure {
 fn read(path: &Path) -> Result<Options, Failure> {
     let text = fs::read_to_string(path)
         .map_err(|error| in_file(path, &format!("cannot be read ({error}); check --config")))?;
-    toml::from_str(&text).map_err(|error| {
+    parse(&text).map_err(|problem| in_file(path, &problem))
+}
+
+/// Options from TOML, or where and why not.
+pub fn parse(text: &str) -> Result<Options, String> {
+    toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
         let index = before.matches('\n').count();
         let line = text.lines().nth(index).unwrap_or_default().trim();
-        in_file(path, &format!("line {}, \"{line}\": {}", index + 1, error.message()))
+        format!("line {}, \"{line}\": {}", index + 1, error.message())
     })
 }
 
@@ -105,7 +114,7 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 20] = [
+    const NOT_NUMBERS: [&str; 25] = [
         "mesh",
         "bodies",
         "input",
@@ -122,6 +131,11 @@ mod tests {
         "exact-2d",
         "noise-scale",
         "foam",
+        "look",
+        "environment",
+        "floor",
+        "fresnel",
+        "opaque",
         "show",
         "aov",
         "timings",
@@ -171,6 +185,28 @@ mod tests {
         assert_eq!(strength(&["anisotropy = \"off\"", "filter = \"bilateral\""]), bilateral.strength);
         assert_eq!(strength(&["anisotropy = \"off\"", "anisotropy = \"on\""]), Settings::default().smoothing.strength);
         assert_eq!(strength(&["anisotropy = \"off\"\nstrength = 3.0"]), 3.0);
+    }
+
+    #[test]
+    fn a_look_is_whole_and_options_beside_it_win() {
+        let with = |layers: &[&str]| {
+            let mut table = Table::try_from(Options::defaults()).unwrap();
+            layers.iter().for_each(|text| overlay(&mut table, &toml::from_str(text).unwrap()).unwrap());
+            table.remove("look");
+            table
+        };
+        let milk = with(&["look = \"milk\""]);
+        assert_ne!(milk, with(&[]));
+        assert_eq!(
+            milk,
+            with(&["albedo = [0.0, 1.0, 0.0]\nabsorption-per-world = [1.0, 1.0, 1.0]", "look = \"milk\""])
+        );
+        assert_eq!(with(&["look = \"milk\"", "look = \"water\""]), with(&[]));
+        for layers in [&["look = \"milk\"\nspecular = 0.25"][..], &["look = \"milk\"", "specular = 0.25"]] {
+            let mut expected = milk.clone();
+            expected.insert("specular".into(), Value::Float(0.25));
+            assert_eq!(with(layers), expected);
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod config;
 mod frame;
 mod limits;
 mod living;
+pub mod look;
 mod options;
 mod outputs;
 mod progress;
@@ -16,9 +17,9 @@ mod timings;
 
 pub use config::describe_options;
 
-use crate::console;
 use crate::failure::Failure;
 use crate::write::{write_aov, write_layers, write_picture};
+use crate::{console, environment};
 use camera::Stage;
 use clap::Args;
 use frame::FrameParticles;
@@ -56,7 +57,12 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let outputs = Outputs::plan(&options, &sequence.frames)?;
     outputs.check()?;
     let props = Props::load(&options, &sequence.frames)?;
+    let map = options.environment.as_deref().map(|path| environment::read(Path::new(path))).transpose()?;
     let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
+    if let (Some(map), Some(path)) = (map, &options.environment) {
+        let bad = |source| Failure::Frame { path: path.into(), source };
+        offscreen.set_environment(Some(&map)).map_err(bad)?;
+    }
 
     let survey = Survey::of(&sequence.frames, &options)?;
     let stage = Stage::of(&options, &survey, &props)?;

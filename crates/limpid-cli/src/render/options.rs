@@ -5,7 +5,7 @@ use super::size::Size;
 use crate::failure::Failure;
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use limpid::{Absorption, AgitationLimits, CurvatureFlow, Filter, Foam, Scale, Settings, Smoothing};
+use limpid::{Absorption, AgitationLimits, CurvatureFlow, Filter, Foam, Fresnel, Optics, Scale, Settings, Smoothing};
 use limpid_headless::{Aov, Background};
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +17,9 @@ const EXPOSURE: f64 = 1.0;
 
 /// Frames per second where nothing else is asked for: what most simulations are written at.
 const FPS: f64 = 25.0;
+
+/// Strength of the built-in sun.
+const SUN: f64 = 1.0;
 
 /// The options; what is not given is None. Ranges and defaults are added to the help from their own places.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -126,6 +129,28 @@ pub struct Options {
     /// Multiplies the light before it is shown
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
     pub exposure: Option<f64>,
+    /// What liquid it is: a name that `limpid looks` lists, or a file like those; options beside it win
+    #[arg(long, value_name = "NAME|FILE.toml", help_heading = "Look")]
+    pub look: Option<String>,
+    /// Light from all around, an equirectangular picture, .hdr or .exr, fixed to the world, with up as the data's. It takes
+    /// the place of the sky, and of sun and floor unless they are asked for
+    #[arg(long, value_name = "FILE.hdr|FILE.exr", help_heading = "Look")]
+    pub environment: Option<String>,
+    /// Strength of the built-in sun; 0: none
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Look")]
+    pub sun: Option<f64>,
+    /// Where the sun is seen from the fluid, a direction in world space; without it beyond the fluid, to one side
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub sun_direction: Option<[f64; 3]>,
+    /// Whether there is a floor under the fluid, seen in it and through it, that takes its shadow
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Look")]
+    pub floor: Option<Named<bool>>,
+    /// Count every pixel of the fluid as this many particle radii thick and measure no thickness; 0 measures it
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Look")]
+    pub fixed_thickness: Option<f64>,
+    /// Reflectance of a surface by its index of refraction: exact, or Schlick's approximation
+    #[arg(long, value_name = "NAME", value_parser = choice::<Fresnel>(), help_heading = "Look")]
+    pub fresnel: Option<Named<Fresnel>>,
     /// Index of refraction
     #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Look")]
     pub refractive_index: Option<f64>,
@@ -135,7 +160,22 @@ pub struct Options {
     /// Absorption of red, green and blue for each world unit of depth, as a physical liquid has
     #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
     pub absorption_per_world: Option<[f64; 3]>,
-    /// Linear colour of liquid so deep that nothing shines through
+    /// Scattering of red, green and blue, in the unit of the absorption: milky liquids
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub scattering: Option<[f64; 3]>,
+    /// Linear base colour of what is scattered, and of an opaque liquid
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub albedo: Option<[f64; 3]>,
+    /// Whether nothing shines through, however thin the liquid
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Look")]
+    pub opaque: Option<Named<bool>>,
+    /// Reflectance of a metal seen straight on, red, green and blue; 0: no metal, the index of refraction decides
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
+    pub metal: Option<[f64; 3]>,
+    /// How blurred mirror images of the surroundings are
+    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Look")]
+    pub roughness: Option<f64>,
+    /// Linear light of its own that liquid sends out where it is so deep that nothing shines through
     #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true, help_heading = "Look")]
     pub color: Option<[f64; 3]>,
     /// How far the background is shifted, in units of the thickness
@@ -231,12 +271,14 @@ impl Options {
             agitation_threshold: Some(AgitationLimits::default().threshold),
             cooling: Some(AgitationLimits::default().cooling),
             fps: Some(FPS),
+            sun: Some(SUN),
+            floor: Some(Named(true)),
             quiet: Some(false),
             ..Self::of_settings(&Settings::default())
         }
     }
 
-    /// What the choices of a layer (quality, filter, anisotropy) imply for other options, those of the layers below given.
+    /// What the choices of a layer (quality, filter, anisotropy, environment) imply for other options, those of the layers below given.
     pub fn implied(&self, below: &Self) -> Self {
         let smoothing = self.implied_smoothing(below);
         let standard = Settings::default();
@@ -245,7 +287,10 @@ impl Options {
             Quality::Standard => (standard.filter_scale, standard.thickness_scale),
             Quality::High => (Scale::Full, Scale::Full),
         });
+        let has_map = self.environment.is_some();
         Self {
+            sun: has_map.then_some(0.0),
+            floor: has_map.then_some(Named(false)),
             filter_scale: scales.map(|(filter, _)| Named(filter)),
             thickness_scale: scales.map(|(_, thickness)| Named(thickness)),
             ..smoothing
@@ -274,11 +319,8 @@ impl Options {
     }
 
     fn of_settings(settings: &Settings) -> Self {
-        let Settings { anisotropy, detail, optics, .. } = settings;
-        let (absorption, absorption_per_world) = match optics.absorption {
-            Absorption::PerRadius(rgb) => (Some(rgb.map(widen)), None),
-            Absorption::PerWorld(rgb) => (None, Some(rgb.map(widen))),
-        };
+        let Settings { anisotropy, detail, .. } = settings;
+        let smoothing = Self::of_smoothing(&settings.smoothing);
         Self {
             splat_scale: Some(widen(settings.splat_scale)),
             density_threshold: Some(widen(settings.density_threshold)),
@@ -302,14 +344,40 @@ impl Options {
             foam_color: Some(detail.foam_color.map(widen)),
             foam_speed_min: Some(widen(detail.foam_speed[0])),
             foam_speed_max: Some(widen(detail.foam_speed[1])),
+            fixed_thickness: Some(settings.fixed_thickness.map_or(0.0, widen)),
+            filter: smoothing.filter,
+            curvature_flow: smoothing.curvature_flow,
+            strength: smoothing.strength,
+            iterations: smoothing.iterations,
+            exact_2d: smoothing.exact_2d,
+            filter_max_px: smoothing.filter_max_px,
+            filter_range: smoothing.filter_range,
+            filter_clamp: smoothing.filter_clamp,
+            ..Self::of_optics(&settings.optics)
+        }
+    }
+
+    /// What a look is made of.
+    pub fn of_optics(optics: &Optics) -> Self {
+        let (absorption, absorption_per_world) = match optics.absorption {
+            Absorption::PerRadius(rgb) => (Some(rgb.map(widen)), None),
+            Absorption::PerWorld(rgb) => (None, Some(rgb.map(widen))),
+        };
+        Self {
+            fresnel: Some(Named(optics.fresnel)),
             refractive_index: Some(widen(optics.refractive_index)),
+            metal: Some(optics.metal.map(widen)),
+            roughness: Some(widen(optics.roughness)),
             absorption,
             absorption_per_world,
+            scattering: Some(optics.scattering.map(widen)),
+            albedo: Some(optics.albedo.map(widen)),
+            opaque: Some(Named(optics.opaque)),
             color: Some(optics.color.map(widen)),
             refraction: Some(widen(optics.refraction)),
             specular: Some(widen(optics.specular)),
             shininess: Some(widen(optics.shininess)),
-            ..Self::of_smoothing(&settings.smoothing)
+            ..Self::default()
         }
     }
 
@@ -367,7 +435,9 @@ impl Options {
         set(&mut detail.foam_speed[0], self.foam_speed_min);
         set(&mut detail.foam_speed[1], self.foam_speed_max);
 
+        settings.fixed_thickness = self.fixed_thickness.filter(|thickness| *thickness > 0.0).map(|v| v as f32);
         let optics = &mut settings.optics;
+        optics.fresnel = self.fresnel.map_or(optics.fresnel, |fresnel| fresnel.0);
         set(&mut optics.refractive_index, self.refractive_index);
         if let Some(rgb) = self.absorption {
             optics.absorption = Absorption::PerRadius(rgb.map(|v| v as f32));
@@ -375,7 +445,12 @@ impl Options {
         if let Some(rgb) = self.absorption_per_world {
             optics.absorption = Absorption::PerWorld(rgb.map(|v| v as f32));
         }
-        optics.color = self.color.map_or(optics.color, |rgb| rgb.map(|v| v as f32));
+        set_rgb(&mut optics.metal, self.metal);
+        set(&mut optics.roughness, self.roughness);
+        set_rgb(&mut optics.scattering, self.scattering);
+        set_rgb(&mut optics.albedo, self.albedo);
+        optics.opaque = self.opaque.map_or(optics.opaque, |opaque| opaque.0);
+        set_rgb(&mut optics.color, self.color);
         set(&mut optics.refraction, self.refraction);
         set(&mut optics.specular, self.specular);
         set(&mut optics.shininess, self.shininess);
@@ -437,6 +512,16 @@ impl Options {
         self.exposure.unwrap_or(EXPOSURE) as f32
     }
 
+    /// Whether there is a floor.
+    pub fn has_floor(&self) -> bool {
+        self.floor.is_none_or(|floor| floor.0)
+    }
+
+    /// Strength of the sun.
+    pub fn sun(&self) -> f64 {
+        self.sun.unwrap_or(SUN)
+    }
+
     /// Whether to say nothing but errors and warnings.
     pub fn quiet(&self) -> bool {
         self.quiet.unwrap_or(false)
@@ -446,6 +531,12 @@ impl Options {
 fn set(setting: &mut f32, option: Option<f64>) {
     if let Some(value) = option {
         *setting = value as f32;
+    }
+}
+
+fn set_rgb(setting: &mut [f32; 3], option: Option<[f64; 3]>) {
+    if let Some(rgb) = option {
+        *setting = rgb.map(|v| v as f32);
     }
 }
 

@@ -13,6 +13,7 @@ struct Body {
 
 @group(1) @binding(0) var<uniform> environment: Environment;
 @group(1) @binding(1) var<storage, read> shadow: array<f32>;
+@group(1) @binding(2) var environment_map: texture_2d<f32>;
 @group(2) @binding(0) var<uniform> body: Body;
 @group(2) @binding(1) var base_color_texture: texture_2d<f32>;
 @group(2) @binding(2) var metallic_roughness_texture: texture_2d<f32>;
@@ -64,13 +65,14 @@ fn facing(normal: vec3f, toward: vec3f) -> vec3f {
 // Light from around that falls on a surface, as on a white one; the floor's is as environment.wgsl lights it.
 fn light_around(normal: vec3f) -> vec3f {
     let upward = 0.5 + 0.5 * dot(normal, environment.up);
-    return mix(vec3f(0.22, 0.215, 0.21), vec3f(0.43, 0.45, 0.47), upward);
+    let procedural = mix(vec3f(0.22, 0.215, 0.21), vec3f(0.43, 0.45, 0.47), upward);
+    return select(procedural, map_light(normal, 1.0), environment.map_levels > 0u);
 }
 
 // Irradiance of the sun over pi: with that from around, 1 on a floor.
 fn sun_on(normal: vec3f, from_eye: vec3f) -> vec3f {
     let height = max(dot(environment.sun, environment.up), 0.2);
-    let facing_sun = max(dot(normal, environment.sun), 0.0) / height;
+    let facing_sun = environment.sun_strength * max(dot(normal, environment.sun), 0.0) / height;
     return 0.55 * facing_sun * sunlight(environment.eye_from_center + from_eye);
 }
 

@@ -92,7 +92,7 @@ impl Bodies {
         let frame = frame_layout(device);
         let light_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("light"),
-            entries: &slot_entries(&[Slot::Uniform, Slot::Read], wgpu::ShaderStages::FRAGMENT),
+            entries: &slot_entries(&[Slot::Uniform, Slot::Read, Slot::Color], wgpu::ShaderStages::FRAGMENT),
         });
         let body_layout = body_layout(device);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -137,17 +137,21 @@ impl Bodies {
         bodies: &[Body<'_>],
         layer: Layer,
     ) {
-        let BackdropFrame { view, size, environment, shadow } = *frame;
+        let BackdropFrame { view, size, environment, shadow, map } = *frame;
         let bodies = bodies.iter().filter(|body| (body.look == Look::Glass) == (layer != Layer::Opaque));
         let bodies: Vec<&Body<'_>> = bodies.collect();
         if bodies.is_empty() {
             return;
         }
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
-        let environment = environment.uniform(view, shadow.map(|shadow| &shadow.tint));
+        let environment = environment.uniform(view, shadow.map(|shadow| &shadow.tint), map);
         queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&environment));
-        let map = shadow.map_or(&self.no_shadow, |shadow| shadow.map);
-        let light = bind(device, &self.light_layout, &[self.environment.as_entire_binding(), map.as_entire_binding()]);
+        let light = [
+            self.environment.as_entire_binding(),
+            shadow.map_or(&self.no_shadow, |shadow| shadow.map).as_entire_binding(),
+            wgpu::BindingResource::TextureView(map.map_or(&self.blank, |map| &map.view)),
+        ];
+        let light = bind(device, &self.light_layout, &light);
         pass.set_bind_group(0, &self.frame_group, &[]);
         pass.set_bind_group(1, &light, &[]);
         for body in bodies {

@@ -115,5 +115,9 @@ fn normals(
         return;
     }
     let slope = vec2f(nearness_slope(pixel.at, vec2i(1, 0), center), nearness_slope(pixel.at, vec2i(0, 1), center));
-    surface[pixel.index] = vec4f(normal_of(pixel.at, center, slope), thickness_at(pixel.at));
+    var liquid = settings.fixed_thickness;
+    if liquid == 0.0 {
+        liquid = thickness_at(pixel.at);
+    }
+    surface[pixel.index] = vec4f(normal_of(pixel.at, center, slope), liquid);
 }

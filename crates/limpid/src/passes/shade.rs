@@ -3,11 +3,11 @@
 use super::module;
 use crate::environment::EnvironmentUniform;
 use crate::gpu::{Grid, Kernel, Recorder, Slot, uniform_buffer};
-use crate::settings::Optics;
+use crate::settings::{Fresnel, Optics};
 use crate::targets::Targets;
 use bytemuck::{Pod, Zeroable};
 
-/// `shade.wgsl`'s `Optics`.
+/// `interface.wgsl`'s `Optics`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct OpticsUniform {
@@ -15,9 +15,15 @@ pub(crate) struct OpticsUniform {
     pub refractive_index: f32,
     pub color: [f32; 3],
     pub refraction: f32,
+    pub scattering: [f32; 3],
     pub specular: f32,
+    pub albedo: [f32; 3],
     pub shininess: f32,
-    pub padding: [f32; 2],
+    pub metal: [f32; 3],
+    pub roughness: f32,
+    pub fresnel: u32,
+    pub is_opaque: u32,
+    pub padding: [u32; 2],
 }
 
 impl OpticsUniform {
@@ -27,9 +33,15 @@ impl OpticsUniform {
             refractive_index: optics.refractive_index,
             color: optics.color,
             refraction: optics.refraction,
+            scattering: optics.scattering_per_world(radius),
             specular: optics.specular,
+            albedo: optics.albedo,
             shininess: optics.shininess,
-            padding: [0.0; 2],
+            metal: optics.metal,
+            roughness: optics.roughness,
+            fresnel: u32::from(optics.fresnel == Fresnel::Schlick),
+            is_opaque: u32::from(optics.opaque),
+            padding: [0; 2],
         }
     }
 }
@@ -38,6 +50,7 @@ impl OpticsUniform {
 pub(crate) struct SceneViews<'a> {
     pub color: &'a wgpu::TextureView,
     pub depth: &'a wgpu::TextureView,
+    pub environment_map: &'a wgpu::TextureView,
 }
 
 pub(crate) struct Shade {
@@ -55,6 +68,8 @@ impl Shade {
             "tile_pixel.wgsl",
             "../environment.wgsl",
             "../scene_depth.wgsl",
+            "interface.wgsl",
+            "body.wgsl",
             "shade.wgsl"
         );
         let slots = [
@@ -67,6 +82,7 @@ impl Shade {
             Slot::Color,
             Slot::Depth,
             Slot::Read,
+            Slot::Color,
         ];
         Self {
             kernel: Kernel::new(device, frame, &module, "shade", &slots),
@@ -99,6 +115,7 @@ impl Shade {
             wgpu::BindingResource::TextureView(scene.color),
             wgpu::BindingResource::TextureView(scene.depth),
             shadow.as_entire_binding(),
+            wgpu::BindingResource::TextureView(scene.environment_map),
         ];
         recorder.run("shade", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));
     }

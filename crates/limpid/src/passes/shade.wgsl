@@ -1,14 +1,6 @@
 // Shading after van der Laan 2009, Eq. 13-15: what is behind the fluid, refracted and absorbed; what is around it,
-// reflected; the sun's highlight. Linear light in, linear premultiplied colour out.
-
-struct Optics {
-    absorption: vec3f, // per world unit
-    refractive_index: f32,
-    color: vec3f,
-    refraction: f32,
-    specular: f32,
-    shininess: f32,
-}
+// reflected; the sun's highlight; what the body scatters. Linear light in, linear premultiplied colour out.
+// interface.wgsl has what surfaces do, body.wgsl what the liquid between them does.
 
 @group(1) @binding(1) var<uniform> optics: Optics;
 @group(1) @binding(2) var<uniform> environment: Environment;
@@ -18,42 +10,103 @@ struct Optics {
 @group(1) @binding(6) var scene_color: texture_2d<f32>;
 @group(1) @binding(7) var scene_depth: texture_depth_2d;
 @group(1) @binding(8) var<storage, read> shadow: array<f32>;
+@group(1) @binding(9) var environment_map: texture_2d<f32>;
 
 const BACKGROUND_NONE: u32 = 0u;
+// What is computed: settings.rs's `Shading`.
+const SHADING_TRANSMITTANCE: u32 = 1u;
+const SHADING_ALBEDO: u32 = 2u;
 // Brightness of the sun's mirror image, over that of a white wall in the sun.
 const GLINT: f32 = 4.0;
-// Width of the cone of a reflected ray per distance: ripples too fine to see blur what they reflect.
-const REFLECTED_SPREAD: f32 = 0.02;
 
-// Unpolarised reflectance of a smooth dielectric, exact; `cosine` of the angle to the normal, `index` above 1.
-fn fresnel(cosine: f32, index: f32) -> f32 {
-    let g = sqrt(index * index - 1.0 + cosine * cosine);
-    let a = (g - cosine) / (g + cosine);
-    let b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0);
-    return 0.5 * a * a * (1.0 + b * b);
+// A place on the fluid's surface and how it is looked at.
+struct Sight {
+    px: vec2f,
+    depth: f32,
+    position: vec3f, // view space
+    toward: vec3f, // unit, away from the eye
+    normal: vec3f, // unit, towards the eye
+    thickness: f32, // of the liquid behind it, world units
+    is_submerged: bool, // the eye is inside the liquid: the near plane cuts it open here, and there is no surface
 }
 
-// Bilinear by hand: works for every float format, filterable or not.
-fn scene_color_at(px: vec2f) -> vec3f {
-    let size = textureDimensions(scene_color);
-    let at = clamp(px * settings.fluid_scale - 0.5, vec2f(0.0), vec2f(size) - 1.0);
-    let low = vec2u(at);
-    let high = min(low + 1u, size - 1u);
+fn world_from_view() -> mat3x3f {
+    return mat3x3f(view.world_from_view[0].xyz, view.world_from_view[1].xyz, view.world_from_view[2].xyz);
+}
+
+fn sight_at(px: vec2f, depth: f32, normal_thickness: vec4f) -> Sight {
+    let ray = pixel_ray(px);
+    let position = ray.origin + depth * ray.direction;
+    let is_submerged = depth <= 1.0005 * view.near;
+    return Sight(px, depth, position, normalize(ray.direction), normal_thickness.xyz, normal_thickness.w, is_submerged);
+}
+
+// The scene through a pixel position, bilinear by hand: works for every float format, filterable or not. Texels that lie in
+// front of the fluid have no say.
+fn scene_color_behind(px: vec2f, depth: f32) -> vec3f {
+    let last = vec2i(textureDimensions(scene_color)) - 1;
+    let at = clamp(px * settings.fluid_scale - 0.5, vec2f(0.0), vec2f(last));
+    let low = vec2i(at);
     let part = at - floor(at);
-    let top = mix(textureLoad(scene_color, low, 0), textureLoad(scene_color, vec2u(high.x, low.y), 0), part.x);
-    let bottom = mix(textureLoad(scene_color, vec2u(low.x, high.y), 0), textureLoad(scene_color, high, 0), part.x);
-    return mix(top, bottom, part.y).rgb;
+    var sum = vec3f(0.0);
+    var weights = 0.0;
+    for (var corner = 0; corner < 4; corner++) {
+        let offset = vec2i(corner & 1, corner >> 1u);
+        let texel = min(low + offset, last);
+        let along = select(1.0 - part, part, offset == vec2i(1));
+        let is_behind = scene_depth_at((vec2f(texel) + 0.5) / settings.fluid_scale) > depth;
+        let weight = select(0.0, along.x * along.y, is_behind);
+        sum += weight * textureLoad(scene_color, texel, 0).rgb;
+        weights += weight;
+    }
+    return select(textureLoad(scene_color, low, 0).rgb, sum / weights, weights > 0.0);
 }
 
 // Where the scene behind the fluid is seen: the view ray, bent at the surface, as far into the fluid as the fluid is
 // thick, and from there seen straight. The offset is 0 at thickness 0, and never leads to something in front of the fluid.
-fn refracted_px(px: vec2f, position: vec3f, toward: vec3f, normal: vec3f, thickness: f32) -> vec2f {
-    let inside = refract(toward, normal, 1.0 / optics.refractive_index);
-    let exit = position + thickness * (toward + optics.refraction * (inside - toward));
+fn refracted_px(sight: Sight) -> vec2f {
+    let inside = refract(sight.toward, sight.normal, 1.0 / optics.refractive_index);
+    let bend = select(optics.refraction, 0.0, sight.is_submerged);
+    let exit = sight.position + sight.thickness * (sight.toward + bend * (inside - sight.toward));
     let slope = select(exit.xy, exit.xy / -exit.z, is_perspective());
     let bent = (slope - view.px_zero) / view.px_step;
-    let usable = exit.z < 0.0 && scene_depth_at(bent) > -position.z;
-    return select(px, bent, usable);
+    let usable = exit.z < 0.0 && scene_depth_at(bent) > sight.depth;
+    return select(sight.px, bent, usable);
+}
+
+// What the surface sends on of the light around it: mirror images of the surroundings and of the sun.
+fn surface_light(sight: Sight, reflectance: vec3f) -> vec3f {
+    let rotation = world_from_view();
+    let normal = rotation * sight.normal;
+    let toward = rotation * sight.toward;
+    let spread = 2.0 * optics.roughness * optics.roughness;
+    let around = surroundings(rotation * sight.position, reflect(toward, normal), spread);
+    let highlight = pow(max(dot(normal, normalize(environment.sun - toward)), 0.0), optics.shininess);
+    let glint = SUN_LIGHT * (environment.sun_strength * optics.specular * highlight * GLINT);
+    return reflectance * around + select(glint, vec3f(0.0), sight.is_submerged);
+}
+
+// Linear premultiplied colour; where the host has no scene, alpha is what does not come from behind.
+fn color_of(sight: Sight) -> vec4f {
+    let reflectance = select(reflectance_at(-dot(sight.normal, sight.toward)), vec3f(0.0), sight.is_submerged);
+    let through = body_transmittance(sight.thickness);
+    let lit = light_on(world_from_view() * sight.normal);
+    let own = surface_light(sight, reflectance) + (1.0 - reflectance) * body_light(through, lit);
+    let transmitted = (1.0 - reflectance) * through;
+    if settings.background == BACKGROUND_NONE {
+        return vec4f(own, 1.0 - dot(transmitted, vec3f(1.0 / 3.0)));
+    }
+    return vec4f(own + transmitted * scene_color_behind(refracted_px(sight), sight.depth), 1.0);
+}
+
+fn shading_of(sight: Sight) -> vec4f {
+    if settings.shading == SHADING_TRANSMITTANCE {
+        return vec4f(body_transmittance(sight.thickness), 1.0);
+    }
+    if settings.shading == SHADING_ALBEDO {
+        return vec4f(scattered_color(), 1.0);
+    }
+    return color_of(sight);
 }
 
 @compute @workgroup_size(8, 8)
@@ -69,8 +122,8 @@ fn shade(
     shaded[pixel.index] = vec4f(0.0);
     let px = vec2f(pixel.at) + 0.5;
     let near = nearness[pixel.index];
-    let thickness = surface[pixel.index].w;
-    if near <= 0.0 || thickness < settings.min_thickness * settings.radius {
+    let normal_thickness = surface[pixel.index];
+    if near <= 0.0 || normal_thickness.w < settings.min_thickness * settings.radius {
         return;
     }
     let depth = depth_of(near);
@@ -78,30 +131,5 @@ fn shade(
     if settings.fluid_scale == 1.0 && depth >= scene_depth_at(px) {
         return;
     }
-    let ray = pixel_ray(px);
-    let position = ray.origin + depth * ray.direction;
-    let toward = normalize(ray.direction);
-    let normal = surface[pixel.index].xyz;
-    let cosine = clamp(-dot(normal, toward), 0.0, 1.0);
-    let reflectance = fresnel(cosine, optics.refractive_index);
-
-    let rotation = mat3x3f(view.world_from_view[0].xyz, view.world_from_view[1].xyz, view.world_from_view[2].xyz);
-    let normal_world = rotation * normal;
-    let toward_world = rotation * toward;
-    let reflected = reflect(toward_world, normal_world);
-    let around = surroundings(rotation * position, reflected, REFLECTED_SPREAD);
-
-    let highlight = pow(max(dot(normal_world, normalize(environment.sun - toward_world)), 0.0), optics.shininess);
-    let glint = SUN_LIGHT * (optics.specular * highlight * GLINT);
-
-    let transmitted = exp(-optics.absorption * thickness) * (1.0 - reflectance);
-    let body = optics.color * (1.0 - reflectance - transmitted);
-    var color = vec4f(body + reflectance * around + glint, 1.0);
-    if settings.background == BACKGROUND_NONE {
-        color.a = 1.0 - dot(transmitted, vec3f(1.0 / 3.0));
-    } else {
-        let behind = scene_color_at(refracted_px(px, position, toward, normal, thickness));
-        color += vec4f(transmitted * behind, 0.0);
-    }
-    shaded[pixel.index] = color;
+    shaded[pixel.index] = shading_of(sight_at(px, depth, normal_thickness));
 }

@@ -85,6 +85,7 @@ impl Motion {
         Environment {
             up,
             sun: self.turn * environment.sun,
+            sun_strength: environment.sun_strength,
             floor: environment.floor.map(|floor| self.scale * floor + self.shift.dot(up)),
             extent: self.scale * environment.extent,
             center: self.turn * (self.scale * environment.center) + self.shift,

@@ -2,10 +2,10 @@
 
 use crate::common::{Cloud, Difference, Rendered, SIZE, looking, render, shot_of, unsmoothed};
 use crate::reference::{
-    Camera, Scene, Shadow, Surroundings, balls_of, blurred, liquid, per_world, scene_of, shade, upsampled,
+    Camera, Scene, Shadow, Surroundings, balls_of, blurred, extinction, liquid, scene_of, shade, upsampled,
 };
 use glam::{DVec3, dvec3};
-use limpid::{Absorption, Environment, Optics, Settings, View};
+use limpid::{Absorption, Environment, Fresnel, Optics, Settings, View};
 use limpid_headless::{Background, Shot};
 
 fn view() -> View {
@@ -21,7 +21,7 @@ fn shot(cloud: &Cloud, settings: Settings, background: Background, floor: f64) -
 /// Only the built-in scene has a floor that takes the shadow.
 fn surroundings(shot: &Shot<'_>, radius: f64) -> Surroundings {
     let Shot { environment, particles, settings, .. } = shot;
-    let cast = || Shadow::cast(particles, environment, per_world(&settings.optics, radius), radius);
+    let cast = || Shadow::cast(particles, environment, extinction(&settings.optics, radius), radius);
     Surroundings { environment: *environment, shadow: (shot.background == Background::Scene).then(cast) }
 }
 
@@ -70,7 +70,10 @@ fn other_liquids() {
     let optics = [
         Optics { refractive_index: 1.6, refraction: 2.0, ..Optics::default() },
         Optics { absorption: Absorption::PerWorld([8.0, 2.0, 0.5]), color: [0.3, 0.1, 0.05], ..Optics::default() },
-        Optics { specular: 3.0, shininess: 20.0, ..Optics::default() },
+        Optics { specular: 3.0, shininess: 20.0, roughness: 0.5, ..Optics::default() },
+        Optics { fresnel: Fresnel::Schlick, scattering: [0.1, 0.2, 0.3], albedo: [0.9, 0.8, 0.7], ..Optics::default() },
+        Optics { opaque: true, albedo: [0.6, 0.2, 0.1], ..Optics::default() },
+        Optics { opaque: true, metal: [0.8, 0.7, 0.6], albedo: [0.0; 3], ..Optics::default() },
     ];
     for (i, optics) in optics.into_iter().enumerate() {
         compare(&format!("liquid {i}"), Settings { optics, ..Settings::spheres() }, Background::Scene, -0.01);

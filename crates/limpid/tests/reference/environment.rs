@@ -56,10 +56,18 @@ impl Surroundings {
         let white = checker(tiles.x, tiles.y, width, width / descent);
         let stone = DVec3::new(0.40, 0.39, 0.38).lerp(DVec3::new(0.52, 0.51, 0.495), white);
         let sunlight = self.shadow.as_ref().map_or(DVec3::ONE, |shadow| shadow.light(at));
-        let lit = stone * (0.45 + 0.55 * sunlight);
+        let lit = stone * (0.45 + 0.55 * environment.sun_strength * sunlight);
         let horizon = sky(environment, direction.reject_from(environment.up).normalize());
         horizon.lerp(lit, (-0.002 * tiles.length_squared()).exp())
     }
+}
+
+/// Light on a white surface of this normal, over pi.
+pub fn light_on(environment: &Environment, normal: DVec3) -> DVec3 {
+    let around =
+        DVec3::new(0.40, 0.39, 0.38).lerp(DVec3::new(0.50, 0.57, 0.66), 0.5 + 0.5 * normal.dot(environment.up));
+    let facing = ((normal.dot(environment.sun) + 0.5) / 1.5).max(0.0);
+    around + 0.7 * environment.sun_strength * facing * SUN_LIGHT
 }
 
 /// Coordinates to the east and to the north.
@@ -88,7 +96,7 @@ fn sky(environment: &Environment, direction: DVec3) -> DVec3 {
     let cloud = smoothstep(0.45, 1.0, 0.5 + 0.5 * wave_x * wave_y) * smoothstep(0.05, 0.35, height);
     let clouded = clear.lerp(DVec3::splat(1.05), 0.8 * cloud);
     let toward_sun = direction.dot(environment.sun).max(0.0);
-    clouded + SUN_LIGHT * (0.25 * toward_sun.powi(8) + 0.6 * toward_sun.powi(96))
+    clouded + environment.sun_strength * SUN_LIGHT * (0.25 * toward_sun.powi(8) + 0.6 * toward_sun.powi(96))
 }
 
 fn smoothstep(low: f64, high: f64, value: f64) -> f64 {

@@ -22,7 +22,7 @@ pub use detail::living;
 pub use environment::{Scene, Surroundings, scene_of};
 pub use narrow_range::narrow_range;
 pub use normals::normals;
-pub use shade::{per_world, shade};
+pub use shade::{extinction, shade, transmittance};
 pub use shadow::Shadow;
 pub use splat::{Ball, balls_of, raw_depth};
 pub use thickness::{blurred, liquid, upsampled};

@@ -1,0 +1,19 @@
+// The body of the liquid: what it absorbs, what it scatters. Whoever includes this binds `optics`.
+
+// Share of the light that goes straight through so much liquid (Beer and Lambert).
+fn body_transmittance(thickness: f32) -> vec3f {
+    let extinction = optics.absorption + optics.scattering;
+    return select(exp(-extinction * thickness), vec3f(0.0), optics.is_opaque == 1u);
+}
+
+// Base colour of what is scattered, less what is absorbed on the way.
+fn scattered_color() -> vec3f {
+    let extinction = max(optics.absorption + optics.scattering, vec3f(1e-30));
+    return optics.albedo * select(optics.scattering / extinction, vec3f(1.0), optics.is_opaque == 1u);
+}
+
+// Light from within where `transmittance` goes straight through: what falls in, `lit`, is scattered out again in place of
+// what is scattered away, so that a liquid that absorbs nothing loses none; and the liquid's own (C_fluid of Eq. 14).
+fn body_light(transmittance: vec3f, lit: vec3f) -> vec3f {
+    return (scattered_color() * lit + optics.color) * (1.0 - transmittance);
+}
