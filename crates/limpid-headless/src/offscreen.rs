@@ -210,9 +210,10 @@ impl Offscreen {
         let (scene, depth, picture) = (view_of(&images.scene), view_of(&images.depth), view_of(&images.picture));
         let mut encoder = device.create_command_encoder(&Default::default());
 
-        if shot.background == Background::Scene {
-            self.renderer.cast_shadow(device, queue, &mut encoder, particles, &shot.environment, &shot.settings.optics);
-        }
+        let Shot { environment, bodies, settings, .. } = shot;
+        // Whatever the background: the fluid mirrors the same surroundings before all of them.
+        let casters = self.bodies.from_sun(device, queue, &mut encoder, environment, bodies);
+        self.renderer.cast_shadow(device, queue, &mut encoder, particles, casters, environment, &settings.optics);
         self.draw_scene(&mut encoder, shot, &scene, &depth);
         encoder.copy_texture_to_texture(
             images.scene.as_image_copy(),

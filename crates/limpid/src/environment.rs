@@ -14,6 +14,8 @@ pub struct Environment {
     pub sun: DVec3,
     /// Strength of the sun, default 1; 0: none, and no highlight.
     pub sun_strength: f64,
+    /// Angle that the sun's disc spans, radians, default 0.04: how soft shadows are. (The real sun's is 0.0093.)
+    pub sun_size: f64,
     /// The floor's plane: a point p is on it where dot(p, up) is this. None: sky below the horizon too.
     pub floor: Option<f64>,
     /// The middle of the picture's subject.
@@ -33,7 +35,7 @@ impl Environment {
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
         // A subject without size gets one, so that nothing is divided by 0.
         let extent = Some(0.5 * (max - min).length()).filter(|extent| *extent > 0.0).unwrap_or(1.0);
-        Self { up, sun, sun_strength: 1.0, floor: Some(floor), center, extent }
+        Self { up, sun, sun_strength: 1.0, sun_size: 0.04, floor: Some(floor), center, extent }
     }
 
     /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
@@ -57,6 +59,8 @@ impl Environment {
             extent: self.extent as f32,
             sun_east: sun_east.as_vec3(),
             shadow_texels: shadow.map_or(0, |_| SHADOW_TEXELS),
+            sun_tangent: (0.5 * self.sun_size).tan() as f32,
+            scene_texels: shadow.map_or(0, |shadow| shadow.scene_texels),
             sun_north: self.sun.cross(sun_east).as_vec3(),
             shadow_radius: shadow.map_or(1.0, |tint| tint.radius),
             shadow_absorption: shadow.map_or(Vec3::ZERO, |tint| tint.absorption.into()),
@@ -65,11 +69,13 @@ impl Environment {
             map_levels: map.map_or(0, |map| map.lobes.levels),
             map_middle: (tilt * DVec3::NEG_Z).as_vec3(),
             map_alpha: map.map_or(1.0, |map| map.lobes.first_alpha),
+            padding: [0; 2],
         }
     }
 
-    /// The sun's view of the subject.
-    pub(crate) fn sun_view(&self) -> View {
+    /// The sun's view of the subject, orthographic with reversed depth: hosts draw their scene's depth by it for
+    /// [`crate::Renderer::cast_shadow`].
+    pub fn sun_view(&self) -> View {
         let eye = self.center + 2.0 * self.extent * self.sun;
         let up = self.sun.cross(self.sun.any_orthonormal_vector());
         let size = 2.0 * self.extent;
@@ -84,6 +90,8 @@ pub(crate) struct ShadowTint {
     pub absorption: [f32; 3],
     /// r, world units.
     pub radius: f32,
+    /// Texels along the edge of the scene's map; 0: it casts no shadow.
+    pub scene_texels: u32,
 }
 
 /// `environment.wgsl`'s `Environment`.
@@ -108,4 +116,7 @@ pub(crate) struct EnvironmentUniform {
     pub map_levels: u32,
     pub map_middle: Vec3,
     pub map_alpha: f32,
+    pub sun_tangent: f32,
+    pub scene_texels: u32,
+    pub padding: [u32; 2],
 }

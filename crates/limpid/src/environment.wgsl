@@ -1,6 +1,6 @@
 // Procedural surroundings: a floor of pale tiles, a sky with a little cloud, a sun. Colours are linear.
 // Where there is an environment map (environment_map.rs), it takes the sky's place.
-// Whoever includes this binds `environment`, `shadow`, the thickness of the fluid as the sun sees it (shadow.rs), and
+// Whoever includes this binds `environment`, `shadow`, what the sun sees of fluid and scene (shadow.rs), and
 // `environment_map`, a stand-in where there is none.
 
 struct Environment {
@@ -22,6 +22,8 @@ struct Environment {
     map_levels: u32, // 0: no map
     map_middle: vec3f,
     map_alpha: f32, // GGX's, of level 1; each level after it has twice as much
+    sun_tangent: f32, // of half the angle that the sun's disc spans
+    scene_texels: u32, // along the edge of what the sun sees of the scene; 0: nothing
 }
 
 const SUN_LIGHT: vec3f = vec3f(1.0, 0.94, 0.84);
@@ -84,12 +86,12 @@ fn procedural_sky(direction: vec3f) -> vec3f {
 }
 
 // Light that falls on a white surface of this normal, over pi: what comes from all around, and the sun. Liquid is lit some
-// way round its edge, since it scatters light on its way through.
-fn light_on(normal: vec3f) -> vec3f {
+// way round its edge, since it scatters light on its way through. `sunlight`: the share of the sun's light that arrives.
+fn light_on(normal: vec3f, sunlight: vec3f) -> vec3f {
     let upward = 0.5 + 0.5 * dot(normal, environment.up);
     let around = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.50, 0.57, 0.66), upward);
     let facing = max((dot(normal, environment.sun) + 0.5) / 1.5, 0.0);
-    return select(around, map_light(normal, 1.0), environment.map_levels > 0u) + SUN_LIGHT * (0.7 * environment.sun_strength * facing);
+    return select(around, map_light(normal, 1.0), environment.map_levels > 0u) + SUN_LIGHT * sunlight * (0.7 * environment.sun_strength * facing);
 }
 
 // Share of white squares of a checkerboard within a box of `width` tiles around a point.
@@ -99,27 +101,107 @@ fn checker(at: vec2f, width: vec2f) -> f32 {
     return 0.5 - 0.5 * integral.x * integral.y;
 }
 
-fn shadow_texel(at: vec2i) -> f32 {
+// Words of a texel of the fluid's map (shadow.wgsl), and slices among them.
+const SHADOW_WORDS: u32 = 18u;
+const SHADOW_SLICES: u32 = 16u;
+
+// Liquid before a depth from the sun, in one texel.
+fn liquid_before(at: vec2i, depth: f32) -> f32 {
     let size = i32(environment.shadow_texels);
     let inside = min(min(at.x, at.y), size - 1 - max(at.x, at.y)) >= 0;
     let texel = clamp(at, vec2i(0), vec2i(size - 1));
-    return select(0.0, shadow[texel.y * size + texel.x], inside);
+    let first = u32(texel.y * size + texel.x) * SHADOW_WORDS;
+    let front = shadow[first];
+    let back = shadow[first + 1u];
+    let place = clamp((depth - front) / max(back - front, 1e-30), 0.0, 1.0) * f32(SHADOW_SLICES);
+    let slice = min(u32(place), SHADOW_SLICES - 1u);
+    let low = select(0.0, shadow[first + 1u + slice], slice > 0u);
+    let before = mix(low, shadow[first + 2u + slice], place - f32(slice));
+    return select(0.0, before, inside & (back > 0.0));
 }
 
-// Share of the sun's light that reaches a place, given relative to the centre: absorbed as Beer and Lambert say, and half
-// of it bent elsewhere where there is more than a film of liquid.
-fn sunlight(at: vec3f) -> vec3f {
-    let size = f32(environment.shadow_texels);
-    let across = vec2f(dot(at, environment.sun_east), -dot(at, environment.sun_north)) / environment.extent;
-    let texel = (0.5 * across + 0.5) * size - 0.5;
+// Liquid between the sun and a place of the sun's view.
+fn liquid_toward_sun(across: vec2f, depth: f32) -> f32 {
+    let texel = (0.5 * across + 0.5) * f32(environment.shadow_texels) - 0.5;
     let low = floor(texel);
     let part = texel - low;
-    let corner = vec2i(clamp(low, vec2f(-2.0), vec2f(size)));
-    let top = mix(shadow_texel(corner), shadow_texel(corner + vec2i(1, 0)), part.x);
-    let bottom = mix(shadow_texel(corner + vec2i(0, 1)), shadow_texel(corner + vec2i(1, 1)), part.x);
-    let depth = mix(top, bottom, part.y);
-    let bent = 0.5 - 0.5 * exp(-0.25 * depth / environment.shadow_radius);
-    return exp(-environment.shadow_absorption * depth) * (1.0 - bent);
+    let corner = vec2i(clamp(low, vec2f(-2.0), vec2f(f32(environment.shadow_texels))));
+    let top = mix(liquid_before(corner, depth), liquid_before(corner + vec2i(1, 0), depth), part.x);
+    let bottom = mix(liquid_before(corner + vec2i(0, 1), depth), liquid_before(corner + vec2i(1, 1), depth), part.x);
+    return mix(top, bottom, part.y);
+}
+
+// Depth from the sun of the nearest part of the scene at a texel of its map, which follows the fluid's.
+fn scene_from_sun(at: vec2i) -> f32 {
+    let size = i32(environment.scene_texels);
+    let texel = clamp(at, vec2i(0), vec2i(size - 1));
+    let fluid = environment.shadow_texels * environment.shadow_texels * SHADOW_WORDS;
+    let inside = min(min(at.x, at.y), size - 1 - max(at.x, at.y)) >= 0;
+    let nearness = select(0.0, shadow[fluid + u32(texel.y * size + texel.x)], inside);
+    return environment.extent * mix(4.0, 0.02, nearness);
+}
+
+const SUN_TAPS: i32 = 24;
+
+// A point of a disc, evenly spread (Vogel 1979), turned by an angle.
+fn on_disc(tap: i32, turn: f32) -> vec2f {
+    let angle = 2.39996323 * f32(tap) + turn;
+    return sqrt((f32(tap) + 0.5) / f32(SUN_TAPS)) * vec2f(cos(angle), sin(angle));
+}
+
+// Share of the sun's disc that the scene leaves free: soft where what hides it is far off (Fernando 2005).
+fn sun_seen(across: vec2f, depth: f32) -> f32 {
+    let texel = (0.5 * across + 0.5) * f32(environment.scene_texels) - 0.5;
+    let texel_world = 2.0 * environment.extent / f32(environment.scene_texels);
+    // Neighbouring texels take other points of the disc: grain in place of steps.
+    let turn = 6.2831853 * fract(52.9829189 * fract(dot(floor(texel), vec2f(0.06711056, 0.00583715))));
+    let widest = max(environment.sun_tangent * 1.5 * environment.extent / texel_world, 1.0);
+    var blockers = 0.0;
+    var blocker_depth = 0.0;
+    for (var tap = 0; tap < SUN_TAPS; tap++) {
+        let offset = widest * on_disc(tap, turn);
+        let nearest = scene_from_sun(vec2i(round(texel + offset)));
+        let margin = texel_world * (2.0 + length(offset));
+        if nearest < depth - margin {
+            blockers += 1.0;
+            blocker_depth += nearest;
+        }
+    }
+    if blockers == 0.0 {
+        return 1.0;
+    }
+    let distance = depth - blocker_depth / blockers;
+    let radius = clamp(environment.sun_tangent * distance / texel_world, 1.0, widest);
+    var free = 0.0;
+    for (var tap = 0; tap < SUN_TAPS; tap++) {
+        let offset = radius * on_disc(tap, turn);
+        let nearest = scene_from_sun(vec2i(round(texel + offset)));
+        free += select(1.0, 0.0, nearest < depth - texel_world * (2.0 + length(offset)));
+    }
+    return free / f32(SUN_TAPS);
+}
+
+// Share of the sun's light that reaches a place, given relative to the centre: what the scene leaves free, absorbed by the
+// liquid on its way as Beer and Lambert say, and half of it bent elsewhere where there is more than a film of liquid.
+fn sunlight(at: vec3f) -> vec3f {
+    let across = vec2f(dot(at, environment.sun_east), -dot(at, environment.sun_north)) / environment.extent;
+    let depth = 2.0 * environment.extent - dot(at, environment.sun);
+    var light = vec3f(1.0);
+    if environment.shadow_texels > 0u {
+        let liquid = liquid_toward_sun(across, depth);
+        let bent = 0.5 - 0.5 * exp(-0.25 * liquid / environment.shadow_radius);
+        light = exp(-environment.shadow_absorption * liquid) * (1.0 - bent);
+    }
+    if environment.scene_texels > 0u {
+        light *= sun_seen(across, depth);
+    }
+    return light;
+}
+
+// The same for a place on the liquid's surface, given relative to the eye: what lies between it and the sun, but for the
+// bumps of the surface itself.
+fn sunlight_on_liquid(from_eye: vec3f) -> vec3f {
+    return sunlight(environment.eye_from_center + from_eye + 2.0 * environment.shadow_radius * environment.sun);
 }
 
 // Light from a direction, seen from a place given relative to the eye (world space). `spread` is the width of the view
@@ -139,10 +221,7 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let tiles = vec2f(dot(at, environment.east), dot(at, north)) / environment.tile;
     let width = spread * distance / environment.tile;
     let stone = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.52, 0.51, 0.495), checker(tiles, vec2f(width, width / descent)));
-    var sun = vec3f(environment.sun_strength);
-    if environment.shadow_texels > 0u {
-        sun *= sunlight(at);
-    }
-    let light = select(vec3f(0.45), map_light(environment.up, 1.0), environment.map_levels > 0u) + 0.55 * sun;
+    let around = select(vec3f(0.45), map_light(environment.up, 1.0), environment.map_levels > 0u);
+    let light = around + 0.55 * environment.sun_strength * sunlight(at);
     return mix(behind, stone * light, exp(-environment.tile_fade * dot(tiles, tiles)));
 }

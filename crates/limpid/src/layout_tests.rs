@@ -150,6 +150,9 @@ fn environment() {
         map_levels,
         map_middle,
         map_alpha,
+        sun_tangent,
+        scene_texels,
+        padding,
     });
     assert_same(rust, wgsl_layout(SHADE, "Environment"));
 }

@@ -40,5 +40,5 @@ pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, Renderer
 pub use settings::{
     Absorption, Anisotropy, CurvatureFlow, Filter, Fresnel, Optics, Scale, Settings, Shading, Smoothing,
 };
-pub use shadow::FloorShadow;
+pub use shadow::{FloorShadow, SCENE_SHADOW_TEXELS};
 pub use view::View;

@@ -6,7 +6,7 @@ use crate::passes::{
     Composite, Curvature, Detail, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness,
     Tiles, Upsample, level_count,
 };
-use crate::shadow::{FloorShadow, Shadow};
+use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
 use crate::{Environment, EnvironmentMap, Error, Foam, Optics, Particles, Settings, Smoothing, View};
@@ -74,8 +74,8 @@ impl TargetFormat {
 /// What is already in the host's picture. Both textures have the frame's size and one sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
-    /// Linear colour, any float format, seen through the fluid. None: nothing is behind it, and its alpha is
-    /// 1 - mean transmittance.
+    /// Linear premultiplied colour, any float format, seen through the fluid: alpha 1 where the scene is opaque. Where there
+    /// is nothing, or None, the fluid's alpha is 1 - mean transmittance.
     pub color: Option<&'a wgpu::TextureView>,
     /// Depth by the view's projection. Hides fluid behind it, and ends its thickness. None: nothing is in the way.
     pub depth: Option<&'a wgpu::TextureView>,
@@ -248,26 +248,33 @@ impl Renderer {
         self.profiler.as_mut()
     }
 
-    /// Records the shadow that the fluid casts on the built-in surroundings. Call it before the frame's
-    /// [`crate::Backdrop`] is drawn, which takes [`Self::floor_shadow`], and before [`Self::prepare`], whose reflections
-    /// then show it too.
+    /// Records the shadow that the fluid casts, and that of the scene: on the fluid, and on what takes
+    /// [`Self::floor_shadow`]. Call it before the frame's [`crate::Backdrop`] and [`crate::Bodies`] are drawn, and before
+    /// [`Self::prepare`]. `scene`: what the sun sees of the scene by [`Environment::sun_view`], a `Depth32Float` texture of
+    /// [`crate::SCENE_SHADOW_TEXELS`] squared that can be copied from; None: the scene casts no shadow.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the host's device, queue and encoder, and what casts a shadow in which light"
+    )]
     pub fn cast_shadow(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         particles: &Particles,
+        scene: Option<&wgpu::Texture>,
         environment: &Environment,
         optics: &Optics,
     ) {
         let recorder =
             &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
-        self.shadow.encode(recorder, queue, &self.thickness, particles, environment);
+        self.shadow.encode(recorder, queue, particles, environment, scene);
         let absorption = optics.extinction_per_world(particles.reference_radius);
-        self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius });
+        let scene_texels = if scene.is_some() { SCENE_SHADOW_TEXELS } else { 0 };
+        self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius, scene_texels });
     }
 
-    /// The shadow that was cast for the frame to come; None after [`Self::prepare`].
+    /// The shadow that was last cast; None where none was for the last prepared frame.
     pub fn floor_shadow(&self) -> Option<FloorShadow<'_>> {
         Some(FloorShadow { map: self.shadow.map(), tint: self.shadow_tint? })
     }

@@ -1,43 +1,76 @@
-//! The fluid's shadow on the built-in floor: its thickness as the sun sees it.
+//! What the sun sees: the fluid's shadow on the scene and on itself (`shadow.wgsl`), and the scene's on both.
 
 use crate::environment::ShadowTint;
-use crate::gpu::{Recorder, bind, uniform_buffer};
-use crate::passes::{Thickness, level_count};
+use crate::gpu::{Grid, Kernel, Recorder, Slot, bind, storage_buffer, uniform_buffer};
+use crate::passes::{ellipsoids_constant, module};
 use crate::renderer::{SettingsUniform, THICKNESS_COUNTS};
-use crate::targets::ThicknessImages;
 use crate::view::ViewUniform;
 use crate::{Environment, Particles, Scale};
 use bytemuck::Zeroable;
 
-/// Texels along the map's edge.
+/// Texels along the edge of the fluid's map.
 pub(crate) const SHADOW_TEXELS: u32 = 128;
 
-/// Drawn radius over particle radius: wide splats blur the map for free, as the sun's disc and the ripples of a real
-/// surface would.
+/// Texels along the edge of the scene's.
+pub const SCENE_SHADOW_TEXELS: u32 = 1024;
+
+/// `shadow.wgsl`'s `SLICES` and `WORDS`.
+const SLICES: u64 = 16;
+const WORDS: u64 = SLICES + 2;
+
+/// Drawn radius over particle radius.
 const SPLAT_SCALE: f32 = 3.0;
 
 pub(crate) struct Shadow {
     frame_group: wgpu::BindGroup,
     view: wgpu::Buffer,
     settings: wgpu::Buffer,
-    map: ThicknessImages,
+    find_ends: Kernel,
+    add_liquid: Kernel,
+    resolve: Kernel,
+    ends: wgpu::Buffer,
+    sums: wgpu::Buffer,
+    /// The fluid's map, then the depth buffer of the scene.
+    map: wgpu::Buffer,
 }
+
+const TEXELS: u64 = SHADOW_TEXELS as u64 * SHADOW_TEXELS as u64;
+const SCENE_TEXELS: u64 = SCENE_SHADOW_TEXELS as u64 * SCENE_SHADOW_TEXELS as u64;
 
 impl Shadow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let splat = module!(
+            device,
+            "shadow",
+            "frame.wgsl",
+            "passes/shape.wgsl",
+            "ball.wgsl",
+            "passes/balls.wgsl",
+            "shadow.wgsl"
+        );
+        let resolve = module!(device, "shadow resolve", "frame.wgsl", "shadow_resolve.wgsl");
+        let splat = |entry_point, slots: &[Slot]| {
+            Kernel::with_constants(device, frame, &splat, entry_point, slots, &[ellipsoids_constant(false)])
+        };
+        let particles = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
         let view = uniform_buffer::<ViewUniform>(device, "sun view");
         let settings = uniform_buffer::<SettingsUniform>(device, "sun settings");
         Self {
             frame_group: bind(device, frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             view,
             settings,
-            map: ThicknessImages::new(device, [SHADOW_TEXELS; 2], false),
+            find_ends: splat("find_ends", &particles),
+            add_liquid: splat("add_liquid", &particles),
+            resolve: Kernel::new(device, frame, &resolve, "resolve", &[Slot::Read, Slot::Read, Slot::Write]),
+            ends: storage_buffer(device, "shadow ends", 8 * TEXELS),
+            sums: storage_buffer(device, "shadow sums", 4 * SLICES * TEXELS),
+            map: storage_buffer(device, "shadow", 4 * (WORDS * TEXELS + SCENE_TEXELS)),
         }
     }
 
-    /// f32 thickness, world units, [`SHADOW_TEXELS`] squared.
+    /// What `environment.wgsl` binds as `shadow`.
     pub fn map(&self) -> &wgpu::Buffer {
-        &self.map.images[0]
+        &self.map
     }
 
     /// What the map's recording binds.
@@ -50,29 +83,46 @@ impl Shadow {
         &self,
         recorder: &mut Recorder<'_>,
         queue: &wgpu::Queue,
-        thickness: &Thickness,
         particles: &Particles,
         environment: &Environment,
+        scene: Option<&wgpu::Texture>,
     ) {
-        let size = self.map.size;
+        let size = [SHADOW_TEXELS; 2];
         let view = environment.sun_view().uniform(size, Scale::Full, particles.origin);
         let settings = SettingsUniform {
             radius: particles.reference_radius,
             splat_scale: SPLAT_SCALE,
             thickness_unit: particles.reference_radius / THICKNESS_COUNTS,
-            thickness_size: size,
-            thickness_levels: level_count(size),
-            thickness_divisor: 1.0,
             fluid_scale: 1.0,
             ..SettingsUniform::zeroed()
         };
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
-        thickness.splat(recorder, "shadow", &particles.chunks, None, &self.map);
+        recorder.clear(&self.ends);
+        recorder.clear(&self.sums);
+        for kernel in [&self.find_ends, &self.add_liquid] {
+            for chunk in &particles.chunks {
+                let [positions, densities, shapes] = chunk.bindings();
+                let resources =
+                    [positions, densities, shapes, self.ends.as_entire_binding(), self.sums.as_entire_binding()];
+                recorder.run("shadow", kernel, &resources, &Grid::Items(chunk.count, 64));
+            }
+        }
+        let resources = [self.ends.as_entire_binding(), self.sums.as_entire_binding(), self.map.as_entire_binding()];
+        recorder.run("shadow", &self.resolve, &resources, &Grid::Image(size));
+        if let Some(scene) = scene {
+            let layout = wgpu::TexelCopyBufferLayout {
+                offset: 4 * WORDS * TEXELS,
+                bytes_per_row: Some(4 * SCENE_SHADOW_TEXELS),
+                rows_per_image: None,
+            };
+            let to = wgpu::TexelCopyBufferInfo { buffer: &self.map, layout };
+            recorder.encoder.copy_texture_to_buffer(scene.as_image_copy(), to, scene.size());
+        }
     }
 }
 
-/// A fluid's shadow, as [`crate::Backdrop`] takes it.
+/// What keeps the sun's light from places, as [`crate::Backdrop`] and [`crate::Bodies`] take it.
 pub struct FloorShadow<'a> {
     pub(crate) map: &'a wgpu::Buffer,
     pub(crate) tint: ShadowTint,

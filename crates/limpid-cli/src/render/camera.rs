@@ -53,6 +53,7 @@ impl Stage {
         let environment = Environment {
             sun: sun(options)?.unwrap_or(around.sun),
             sun_strength: options.sun(),
+            sun_size: options.sun_size(),
             floor: around.floor.filter(|_| options.has_floor()),
             ..around
         };

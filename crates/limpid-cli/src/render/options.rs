@@ -12,6 +12,9 @@ use serde::{Deserialize, Serialize};
 /// Vertical field of view in degrees where nothing else is asked for.
 const FOV_DEGREES: f64 = 45.0;
 
+/// How soft the shadows of bodies are where nothing else is asked for: the true sun spans 0.53 degrees, seen through no haze.
+const SUN_SIZE_DEGREES: f64 = 2.5;
+
 /// The light is shown as it is.
 const EXPOSURE: f64 = 1.0;
 
@@ -188,6 +191,9 @@ pub struct Options {
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
     pub shininess: Option<f64>,
 
+    /// Angle that the sun's disc spans, in degrees: how soft the shadows of bodies are
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, help_heading = "Scene")]
+    pub sun_size: Option<f64>,
     /// Mesh to draw beside the fluid, in world units: .obj, .gltf, .glb, .ply or .stl; may be given several times. One whose
     /// file name a body of --bodies has is that body's mesh
     #[arg(long, value_name = "FILE", action = ArgAction::Append, help_heading = "Scene")]
@@ -268,6 +274,7 @@ impl Options {
             quality: Some(Named(Quality::Standard)),
             background: Some(Named(Background::default())),
             exposure: Some(EXPOSURE),
+            sun_size: Some(SUN_SIZE_DEGREES),
             agitation_threshold: Some(AgitationLimits::default().threshold),
             cooling: Some(AgitationLimits::default().cooling),
             fps: Some(FPS),
@@ -505,6 +512,11 @@ impl Options {
     /// What is behind the fluid.
     pub fn background(&self) -> Background {
         self.background.map_or(Background::default(), |background| background.0)
+    }
+
+    /// Angle that the sun's disc spans, radians.
+    pub fn sun_size(&self) -> f64 {
+        self.sun_size.unwrap_or(SUN_SIZE_DEGREES).to_radians()
     }
 
     /// Factor of the light.

@@ -73,7 +73,9 @@ fn light_around(normal: vec3f) -> vec3f {
 fn sun_on(normal: vec3f, from_eye: vec3f) -> vec3f {
     let height = max(dot(environment.sun, environment.up), 0.2);
     let facing_sun = environment.sun_strength * max(dot(normal, environment.sun), 0.0) / height;
-    return 0.55 * facing_sun * sunlight(environment.eye_from_center + from_eye);
+    // From just outside, so that a surface does not shade itself.
+    let outside = 0.004 * environment.extent * normal;
+    return 0.55 * facing_sun * sunlight(environment.eye_from_center + from_eye + outside);
 }
 
 // GGX (Walter et al. 2007) with Smith's shadowing, of the sun: over its irradiance over pi.

@@ -10,8 +10,9 @@ use crate::environment::EnvironmentUniform;
 use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::module;
 use crate::renderer::{SettingsUniform, TargetFormat, frame_layout};
+use crate::shadow::SCENE_SHADOW_TEXELS;
 use crate::view::ViewUniform;
-use crate::{Scale, View};
+use crate::{Environment, Scale, View};
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Mat4};
 use mesh::{ATTRIBUTES, Part, Vertex};
@@ -75,6 +76,9 @@ pub struct Bodies {
     far_pane: wgpu::RenderPipeline,
     near_pane: wgpu::RenderPipeline,
     rim: wgpu::RenderPipeline,
+    caster: wgpu::RenderPipeline,
+    /// What the sun sees.
+    from_sun: wgpu::Texture,
     frame_group: wgpu::BindGroup,
     light_layout: wgpu::BindGroupLayout,
     body_layout: wgpu::BindGroupLayout,
@@ -110,6 +114,21 @@ impl Bodies {
             far_pane: pipeline("far_pane", over),
             near_pane: pipeline("near_pane", over),
             rim: pipeline("rim", over),
+            caster: caster_pipeline(device, &layout, &module),
+            from_sun: device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("bodies from the sun"),
+                size: wgpu::Extent3d {
+                    width: SCENE_SHADOW_TEXELS,
+                    height: SCENE_SHADOW_TEXELS,
+                    depth_or_array_layers: 1,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Depth32Float,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+                view_formats: &[],
+            }),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             light_layout,
             body_layout,
@@ -125,6 +144,42 @@ impl Bodies {
             view,
             environment: uniform_buffer::<EnvironmentUniform>(device, "bodies' environment"),
         }
+    }
+
+    /// Records what the sun sees of the opaque bodies, for [`crate::Renderer::cast_shadow`]; None: there are none.
+    pub fn from_sun(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        environment: &Environment,
+        bodies: &[Body<'_>],
+    ) -> Option<&wgpu::Texture> {
+        let mut opaque = bodies.iter().filter(|body| body.look != Look::Glass).peekable();
+        opaque.peek()?;
+        let depth = self.from_sun.create_view(&Default::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("bodies from the sun"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.caster);
+        pass.set_bind_group(0, &self.frame_group, &[]);
+        let light = [self.environment.as_entire_binding(), self.no_shadow.as_entire_binding()];
+        pass.set_bind_group(1, &bind(device, &self.light_layout, &light), &[]);
+        let view = environment.sun_view();
+        for body in opaque {
+            for part in &body.mesh.parts {
+                let uniform = body.uniform(&view, part);
+                self.triangles(device, queue, &mut pass, &uniform, &part.textures, (&part.vertices, part.count));
+            }
+        }
+        drop(pass);
+        Some(&self.from_sun)
     }
 
     /// Draws one layer into the host's pass. Uniforms are written to the queue at once: one view per submission.
@@ -267,6 +322,42 @@ fn body_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("body"), entries: &entries })
 }
 
+/// Depth alone, in the sun's view.
+fn caster_pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+) -> wgpu::RenderPipeline {
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("caster"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(VERTICES)],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: None,
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<Vertex>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &ATTRIBUTES,
+};
+
 fn mesh_pipeline(
     device: &wgpu::Device,
     layout: &wgpu::PipelineLayout,
@@ -282,11 +373,7 @@ fn mesh_pipeline(
             module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            })],
+            buffers: &[Some(VERTICES)],
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: target.depth.map(|(format, compare)| wgpu::DepthStencilState {

@@ -40,6 +40,6 @@ macro_rules! module {
 pub(crate) use module;
 
 /// `ball.wgsl`'s override.
-fn ellipsoids_constant(ellipsoids: bool) -> (&'static str, f64) {
+pub(crate) fn ellipsoids_constant(ellipsoids: bool) -> (&'static str, f64) {
     ("ELLIPSOIDS", f64::from(u8::from(ellipsoids)))
 }

@@ -43,12 +43,12 @@ fn sight_at(px: vec2f, depth: f32, normal_thickness: vec4f) -> Sight {
 
 // The scene through a pixel position, bilinear by hand: works for every float format, filterable or not. Texels that lie in
 // front of the fluid have no say.
-fn scene_color_behind(px: vec2f, depth: f32) -> vec3f {
+fn scene_color_behind(px: vec2f, depth: f32) -> vec4f {
     let last = vec2i(textureDimensions(scene_color)) - 1;
     let at = clamp(px * settings.fluid_scale - 0.5, vec2f(0.0), vec2f(last));
     let low = vec2i(at);
     let part = at - floor(at);
-    var sum = vec3f(0.0);
+    var sum = vec4f(0.0);
     var weights = 0.0;
     for (var corner = 0; corner < 4; corner++) {
         let offset = vec2i(corner & 1, corner >> 1u);
@@ -56,10 +56,10 @@ fn scene_color_behind(px: vec2f, depth: f32) -> vec3f {
         let along = select(1.0 - part, part, offset == vec2i(1));
         let is_behind = scene_depth_at((vec2f(texel) + 0.5) / settings.fluid_scale) > depth;
         let weight = select(0.0, along.x * along.y, is_behind);
-        sum += weight * textureLoad(scene_color, texel, 0).rgb;
+        sum += weight * textureLoad(scene_color, texel, 0);
         weights += weight;
     }
-    return select(textureLoad(scene_color, low, 0).rgb, sum / weights, weights > 0.0);
+    return select(textureLoad(scene_color, low, 0), sum / weights, weights > 0.0);
 }
 
 // Where the scene behind the fluid is seen: the view ray, bent at the surface, as far into the fluid as the fluid is
@@ -75,28 +75,30 @@ fn refracted_px(sight: Sight) -> vec2f {
 }
 
 // What the surface sends on of the light around it: mirror images of the surroundings and of the sun.
-fn surface_light(sight: Sight, reflectance: vec3f) -> vec3f {
+fn surface_light(sight: Sight, reflectance: vec3f, sunlight: vec3f) -> vec3f {
     let rotation = world_from_view();
     let normal = rotation * sight.normal;
     let toward = rotation * sight.toward;
     let spread = 2.0 * optics.roughness * optics.roughness;
     let around = surroundings(rotation * sight.position, reflect(toward, normal), spread);
     let highlight = pow(max(dot(normal, normalize(environment.sun - toward)), 0.0), optics.shininess);
-    let glint = SUN_LIGHT * (environment.sun_strength * optics.specular * highlight * GLINT);
+    let glint = SUN_LIGHT * sunlight * (environment.sun_strength * optics.specular * highlight * GLINT);
     return reflectance * around + select(glint, vec3f(0.0), sight.is_submerged);
 }
 
-// Linear premultiplied colour; where the host has no scene, alpha is what does not come from behind.
+// Linear premultiplied colour; where the host's scene is not opaque, alpha is what does not come from behind.
 fn color_of(sight: Sight) -> vec4f {
     let reflectance = select(reflectance_at(-dot(sight.normal, sight.toward)), vec3f(0.0), sight.is_submerged);
     let through = body_transmittance(sight.thickness);
-    let lit = light_on(world_from_view() * sight.normal);
-    let own = surface_light(sight, reflectance) + (1.0 - reflectance) * body_light(through, lit);
+    let sunlight = sunlight_on_liquid(world_from_view() * sight.position);
+    let lit = light_on(world_from_view() * sight.normal, sunlight);
+    let own = surface_light(sight, reflectance, sunlight) + (1.0 - reflectance) * body_light(through, lit);
     let transmitted = (1.0 - reflectance) * through;
     if settings.background == BACKGROUND_NONE {
         return vec4f(own, 1.0 - dot(transmitted, vec3f(1.0 / 3.0)));
     }
-    return vec4f(own + transmitted * scene_color_behind(refracted_px(sight), sight.depth), 1.0);
+    let behind = scene_color_behind(refracted_px(sight), sight.depth);
+    return vec4f(own + transmitted * behind.rgb, 1.0 - (1.0 - behind.a) * dot(transmitted, vec3f(1.0 / 3.0)));
 }
 
 fn shading_of(sight: Sight) -> vec4f {

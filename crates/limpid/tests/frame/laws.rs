@@ -89,6 +89,7 @@ impl Motion {
             floor: environment.floor.map(|floor| self.scale * floor + self.shift.dot(up)),
             extent: self.scale * environment.extent,
             center: self.turn * (self.scale * environment.center) + self.shift,
+            ..environment
         }
     }
 }

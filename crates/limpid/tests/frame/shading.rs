@@ -18,11 +18,11 @@ fn shot(cloud: &Cloud, settings: Settings, background: Background, floor: f64) -
     Shot { environment, background, ..shot_of(cloud, view(), SIZE, settings) }
 }
 
-/// Only the built-in scene has a floor that takes the shadow.
+/// The fluid's shadow is there before every background: it shows in reflections, and on the fluid.
 fn surroundings(shot: &Shot<'_>, radius: f64) -> Surroundings {
     let Shot { environment, particles, settings, .. } = shot;
-    let cast = || Shadow::cast(particles, environment, extinction(&settings.optics, radius), radius);
-    Surroundings { environment: *environment, shadow: (shot.background == Background::Scene).then(cast) }
+    let shadow = Shadow::cast(particles, environment, extinction(&settings.optics, radius), radius);
+    Surroundings { environment: *environment, shadow }
 }
 
 fn scene_behind(shot: &Shot<'_>, surroundings: &Surroundings) -> Option<Scene> {

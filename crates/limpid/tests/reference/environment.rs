@@ -15,7 +15,7 @@ pub struct Scene {
 /// The surroundings and the shadow on them.
 pub struct Surroundings {
     pub environment: Environment,
-    pub shadow: Option<Shadow>,
+    pub shadow: Shadow,
 }
 
 /// The surroundings themselves as a scene.
@@ -55,19 +55,18 @@ impl Surroundings {
         let width = spread * distance / tile;
         let white = checker(tiles.x, tiles.y, width, width / descent);
         let stone = DVec3::new(0.40, 0.39, 0.38).lerp(DVec3::new(0.52, 0.51, 0.495), white);
-        let sunlight = self.shadow.as_ref().map_or(DVec3::ONE, |shadow| shadow.light(at));
-        let lit = stone * (0.45 + 0.55 * environment.sun_strength * sunlight);
+        let lit = stone * (0.45 + 0.55 * environment.sun_strength * self.shadow.light(at));
         let horizon = sky(environment, direction.reject_from(environment.up).normalize());
         horizon.lerp(lit, (-0.002 * tiles.length_squared()).exp())
     }
 }
 
 /// Light on a white surface of this normal, over pi.
-pub fn light_on(environment: &Environment, normal: DVec3) -> DVec3 {
+pub fn light_on(environment: &Environment, normal: DVec3, sunlight: DVec3) -> DVec3 {
     let around =
         DVec3::new(0.40, 0.39, 0.38).lerp(DVec3::new(0.50, 0.57, 0.66), 0.5 + 0.5 * normal.dot(environment.up));
     let facing = ((normal.dot(environment.sun) + 0.5) / 1.5).max(0.0);
-    around + 0.7 * environment.sun_strength * facing * SUN_LIGHT
+    around + 0.7 * environment.sun_strength * facing * SUN_LIGHT * sunlight
 }
 
 /// Coordinates to the east and to the north.

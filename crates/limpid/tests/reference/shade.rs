@@ -57,10 +57,11 @@ impl Surface<'_> {
         let cosine = (-self.normal.dot(toward)).clamp(1e-4, 1.0);
         let reflectance = if submerged { DVec3::ZERO } else { reflectance(optics, cosine) };
         let through = self.transmittance();
-        let lit = light_on(&self.surroundings.environment, self.to_world(self.normal));
+        let sun = self.sunlight();
+        let lit = light_on(&self.surroundings.environment, self.to_world(self.normal), sun);
         let [base, glow] = [optics.albedo, optics.color].map(|rgb| DVec3::from_array(rgb.map(f64::from)));
         let body = (1.0 - through) * (scattered_share(optics, self.radius) * base * lit + glow);
-        let glint = if submerged { DVec3::ZERO } else { self.glint(toward) };
+        let glint = if submerged { DVec3::ZERO } else { self.glint(toward) * sun };
         let own = reflectance * self.reflected(toward) + glint + (1.0 - reflectance) * body;
         let transmitted = (1.0 - reflectance) * through;
         match scene {
@@ -84,6 +85,13 @@ impl Surface<'_> {
         let direction = self.to_world(toward.reflect(self.normal));
         let roughness = f64::from(self.settings.optics.roughness);
         self.surroundings.light(position, direction, 2.0 * roughness * roughness)
+    }
+
+    /// Share of the sun's light that arrives 2 r above the surface.
+    fn sunlight(&self) -> DVec3 {
+        let position = self.camera.view.view_from_world.inverse().transform_point3(self.ray.at(self.depth));
+        let above = position + 2.0 * self.radius * self.surroundings.environment.sun;
+        self.surroundings.shadow.light(above)
     }
 
     /// Blinn's highlight of the sun, four times as bright as its light on a wall.

@@ -1,18 +1,50 @@
-//! The fluid's shadow on the floor.
+//! What the liquid leaves of the sun's light.
 
-use super::thickness::Texels;
-use super::{Camera, balls_of, liquid};
+use super::{Ball, Camera, balls_of};
 use glam::{DVec2, DVec3};
-use limpid::{Environment, ParticleSlices, Scale, Settings, View};
+use limpid::{Environment, ParticleSlices, Settings, View};
+use std::f64::consts::PI;
 
 const TEXELS: u32 = 128;
+const SLICES: usize = 16;
+/// Drawn radius over particle radius: blurs the map.
+const WIDE: f64 = 3.0;
 
-/// Depth of liquid towards the sun, drawn with balls of 3 r over a square around the subject.
+/// Liquid along the sun's rays over a square around the subject.
 pub struct Shadow {
     camera: Camera,
-    depth: Texels,
+    texels: Vec<Texel>,
     absorption_per_world: DVec3,
     radius: f64,
+}
+
+/// One ray: liquid from `front` to `back`, and how much of it lies in each of even slices between them.
+#[derive(Clone)]
+struct Texel {
+    front: f64,
+    back: f64,
+    slices: [f64; SLICES],
+}
+
+impl Texel {
+    const EMPTY: Self = Self { front: f64::INFINITY, back: f64::NEG_INFINITY, slices: [0.0; SLICES] };
+
+    /// Puts liquid evenly between two depths.
+    fn add(&mut self, liquid: f64, from: f64, to: f64) {
+        let slice_depth = (self.back - self.front) / SLICES as f64;
+        for (k, slice) in self.slices.iter_mut().enumerate() {
+            let start = self.front + k as f64 * slice_depth;
+            let part = (to.min(start + slice_depth) - from.max(start)).max(0.0);
+            *slice += liquid * part / (to - from);
+        }
+    }
+
+    /// Liquid before a depth, even within each slice.
+    fn before(&self, depth: f64) -> f64 {
+        let slice_depth = (self.back - self.front) / SLICES as f64;
+        let share = |k: usize| ((depth - self.front) / slice_depth - k as f64).clamp(0.0, 1.0);
+        if self.back <= self.front { 0.0 } else { (0..SLICES).map(|k| share(k) * self.slices[k]).sum() }
+    }
 }
 
 impl Shadow {
@@ -27,15 +59,30 @@ impl Shadow {
         let eye = center + 2.0 * extent * sun;
         let view = View::orthographic(eye, center, north, 2.0 * extent, 1.0, 0.02 * extent, 4.0 * extent);
         let camera = Camera::new(view, [TEXELS; 2]);
-        let settings = Settings { splat_scale: 3.0, thickness_scale: Scale::Full, ..Settings::spheres() };
-        let depth = liquid(&camera, &balls_of(particles, &camera, &settings), &settings, None);
-        Self { camera, depth, absorption_per_world, radius }
+        let balls = balls_of(particles, &camera, &Settings { splat_scale: WIDE as f32, ..Settings::default() });
+        let mut texels = vec![Texel::EMPTY; (TEXELS * TEXELS) as usize];
+        let mut hits: Vec<(usize, f64, f64, f64)> = Vec::new();
+        for ball in &balls {
+            hits.extend(liquid_of(ball, &camera));
+        }
+        for (i, _, front, back) in &hits {
+            texels[*i].front = texels[*i].front.min(*front);
+            texels[*i].back = texels[*i].back.max(*back);
+        }
+        for (i, liquid, front, back) in hits {
+            texels[i].add(liquid, front, back);
+        }
+        Self { camera, texels, absorption_per_world, radius }
     }
 
     /// Share of the sun's light that reaches a point of the world.
     pub fn light(&self, point: DVec3) -> DVec3 {
-        let px = self.camera.px_of(self.camera.view.view_from_world.transform_point3(point)) - 0.5;
-        let texel = |x: f64, y: f64| self.depth.index(x as i64, y as i64).map_or(0.0, |i| self.depth.values[i]);
+        let seen = self.camera.view.view_from_world.transform_point3(point);
+        let px = self.camera.px_of(seen) - 0.5;
+        let texel = |x: f64, y: f64| {
+            let inside = x >= 0.0 && y >= 0.0 && x < f64::from(TEXELS) && y < f64::from(TEXELS);
+            if inside { self.texels[(y * f64::from(TEXELS) + x) as usize].before(-seen.z) } else { 0.0 }
+        };
         let DVec2 { x, y } = px.floor();
         let part = px - px.floor();
         let row = |y: f64| texel(x, y) * (1.0 - part.x) + texel(x + 1.0, y) * part.x;
@@ -44,4 +91,19 @@ impl Shadow {
         // Half of it is bent elsewhere, but by a thin film.
         absorbed * (0.5 + 0.5 * (-0.25 * depth / self.radius).exp())
     }
+}
+
+/// Texels, liquid and depths of a particle: its wide ball's chords, all within the particle's own radius.
+fn liquid_of(ball: &Ball, camera: &Camera) -> Vec<(usize, f64, f64, f64)> {
+    let per_chord = 6.0 / (PI * WIDE.powi(3));
+    let own_radius = ball.radius / WIDE;
+    let center = -ball.center.z;
+    let [columns, rows] = ball.texels(camera, 1.0, [TEXELS; 2]);
+    let texels = rows.flat_map(|y| columns.clone().map(move |x| [x, y]));
+    let hit = |[x, y]: [u32; 2]| {
+        let chord = ball.chord(&camera.ray(DVec2::new(x.into(), y.into()) + 0.5), camera.view.near)?;
+        let front = (center - own_radius).max(camera.view.near);
+        Some(((y * TEXELS + x) as usize, per_chord * (chord.end - chord.start), front, center + own_radius))
+    };
+    texels.filter_map(hit).collect()
 }
