@@ -146,8 +146,10 @@ pub struct Renderer {
     composite: Composite,
     curvature: Curvature,
     shadow: Shadow,
-    /// Of the shadow cast for the frame to come.
+    /// Of the shadow cast for the frame to come or the last one.
     shadow_tint: Option<ShadowTint>,
+    /// Whether no frame has been prepared with it.
+    shadow_is_new: bool,
     environment_map: Option<EnvironmentMap>,
     nothing: Nothing,
     targets: Option<Targets>,
@@ -219,6 +221,7 @@ impl Renderer {
             curvature: Curvature::new(device, &layout),
             shadow: Shadow::new(device, &layout),
             shadow_tint: None,
+            shadow_is_new: false,
             environment_map: None,
             nothing: Nothing::new(device),
             targets: None,
@@ -271,6 +274,7 @@ impl Renderer {
         self.shadow.encode(recorder, queue, particles, environment, scene);
         let absorption = optics.extinction_per_world(particles.reference_radius);
         let scene_texels = if scene.is_some() { SCENE_SHADOW_TEXELS } else { 0 };
+        self.shadow_is_new = true;
         self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius, scene_texels });
     }
 
@@ -314,7 +318,9 @@ impl Renderer {
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
         self.ellipsoids.write(queue, particles, &settings.anisotropy);
         let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
-        let shadow = self.shadow_tint.take();
+        // Cast once for each frame; what the host draws after the fluid is shaded by it too.
+        let shadow = self.shadow_tint.filter(|_| std::mem::take(&mut self.shadow_is_new));
+        self.shadow_tint = shadow;
         let environment = frame.environment.uniform(frame.view, shadow.as_ref(), self.environment_map.as_ref());
         self.shade.write(queue, &optics, &environment);
         let frame_group =

@@ -169,7 +169,11 @@ impl Bodies {
         });
         pass.set_pipeline(&self.caster);
         pass.set_bind_group(0, &self.frame_group, &[]);
-        let light = [self.environment.as_entire_binding(), self.no_shadow.as_entire_binding()];
+        let light = [
+            self.environment.as_entire_binding(),
+            self.no_shadow.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&self.blank),
+        ];
         pass.set_bind_group(1, &bind(device, &self.light_layout, &light), &[]);
         let view = environment.sun_view();
         for body in opaque {
