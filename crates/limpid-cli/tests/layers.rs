@@ -27,7 +27,9 @@ fn named<'a>(channels: &'a [(String, Vec<f32>)], name: &str) -> &'a [f32] {
 #[test]
 fn every_layer_has_its_name() {
     let layers = render(&Folder::new(), "a.exr", &[]);
-    for name in ["R", "G", "B", "A", "depth.Z", "normal.X", "normal.Y", "normal.Z", "thickness.Y"] {
+    let transmittance = ["transmittance.R", "transmittance.G", "transmittance.B"];
+    let others = ["R", "G", "B", "A", "depth.Z", "normal.X", "normal.Y", "normal.Z", "thickness.Y", "albedo.R"];
+    for name in transmittance.into_iter().chain(others).chain(["forward.u", "forward.v"]) {
         assert_eq!(named(&layers, name).len(), 160 * 90, "{name}");
     }
     assert!(named(&layers, "A").iter().all(|alpha| *alpha == 1.0), "the built-in scene is opaque");
@@ -46,6 +48,48 @@ fn with_grey_absorption_alpha_alone_composites() {
         assert!(off <= 1e-3, "{name} is off by {off}");
     }
     assert!(named(&free, "A").iter().any(|alpha| *alpha > 0.3) && named(&free, "A").contains(&0.0));
+}
+
+#[test]
+fn color_and_transmittance_composite_over_any_background() {
+    let folder = Folder::new();
+    let sphere = data("obstacles/sphere.obj");
+    for bodies in [&[][..], &["--mesh", &sphere]] {
+        let over = |background| render(&folder, "a.exr", &[&["--background", background], bodies].concat());
+        let [free, white, black] = ["transparent", "white", "black"].map(over);
+        for (behind, value) in [(&white, 1.0), (&black, 0.0)] {
+            for name in ["R", "G", "B"] {
+                let transmittance = named(&free, &format!("transmittance.{name}"));
+                let composited = named(&free, name).iter().zip(transmittance).map(|(color, t)| color + t * value);
+                let off = composited.zip(named(behind, name)).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+                assert!(off <= 1e-3, "{name} over {value} is off by {off}");
+            }
+        }
+        let (red, blue) = (named(&free, "transmittance.R"), named(&free, "transmittance.B"));
+        assert!(red.iter().zip(blue).any(|(red, blue)| blue - red > 0.05), "water absorbs red");
+    }
+}
+
+#[test]
+fn motion_is_that_of_the_particles() {
+    // A ball of particles that moves to the right and up, straight before an orthographic camera.
+    let folder = Folder::new();
+    let rows = common::cube(6, 0.0).into_iter().map(|[x, y, z]| format!("{x},{y},{z},2,1,0\n"));
+    folder.write("a.csv", format!("x,y,z,vx,vy,vz\n{}", rows.collect::<String>()));
+    let camera = ["--camera-eye", "0.5,0.5,9", "--camera-target", "0.5,0.5,0", "--ortho", "4", "--fps", "50"];
+    let fixed = ["render", "a.csv", "-o", "a.exr", "--size", "100x80", "--quiet", "--radius", "0.1"];
+    folder.succeed(&[&fixed[..], &camera].concat());
+    let layers = channels(&folder.path("a.exr"));
+    // 20 pixels a unit, 50 frames a second.
+    let mut covered = 0;
+    for ((depth, u), v) in
+        named(&layers, "depth.Z").iter().zip(named(&layers, "forward.u")).zip(named(&layers, "forward.v"))
+    {
+        let expected = if depth.is_finite() { [0.8, 0.4] } else { [0.0; 2] };
+        covered += usize::from(depth.is_finite());
+        assert!((u - expected[0]).abs() < 1e-4 && (v - expected[1]).abs() < 1e-4, "{u}, {v} at depth {depth}");
+    }
+    assert!(covered > 400, "{covered} pixels covered");
 }
 
 #[test]

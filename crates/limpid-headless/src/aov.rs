@@ -35,6 +35,12 @@ pub enum Aov {
     Color,
     /// Linear premultiplied RGBA of the whole picture, with what is behind and before the fluid, before tone mapping.
     Picture,
+    /// Share of red, green and blue of the light behind everything that reaches the picture: through surfaces and bodies of
+    /// liquid, past what is opaque. 1 where nothing is in the way. With `Background::Transparent`, `Picture` + this x a
+    /// background is the picture before that background, but for refraction.
+    Passage,
+    /// Pixels per second to the right and upwards, by the particles' velocities; 0 where there is no fluid.
+    Motion,
 }
 
 /// Towards the lamp that lights clay, view space.
@@ -42,7 +48,7 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 17] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -58,6 +64,8 @@ impl Aov {
         Self::Albedo,
         Self::Color,
         Self::Picture,
+        Self::Passage,
+        Self::Motion,
     ];
 
     /// Its name on the command line: "raw-depth", "depth", ...
@@ -78,6 +86,8 @@ impl Aov {
             Self::Albedo => "albedo",
             Self::Color => "color",
             Self::Picture => "picture",
+            Self::Passage => "passage",
+            Self::Motion => "motion",
         }
     }
 
@@ -86,7 +96,8 @@ impl Aov {
         match self {
             Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
             Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
-            Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo => 3,
+            Self::Motion => 2,
+            Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo | Self::Passage => 3,
             Self::Color | Self::Picture => 4,
         }
     }
@@ -130,7 +141,7 @@ impl Aov {
             }
             Self::Transmittance | Self::Albedo => inside(words, nearness, of_whole_pixel),
             Self::Color => inside(words, nearness, |pixel| *pixel),
-            Self::Picture => words.to_vec(),
+            Self::Picture | Self::Passage | Self::Motion => words.to_vec(),
         };
         Image { size, channels: self.channels(), values }
     }

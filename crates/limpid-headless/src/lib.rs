@@ -2,6 +2,7 @@
 
 mod aov;
 mod gpu;
+mod motion;
 mod offscreen;
 mod readback;
 mod shot;

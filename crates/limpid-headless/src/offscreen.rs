@@ -1,6 +1,6 @@
 //! A whole picture, off screen: the scene, the fluid in it, the display transform, everything read back.
 
-use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, readback};
+use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, motion, readback};
 use limpid::{
     Backdrop, BackdropFrame, Bodies, Display, EnvironmentMap, FloorShadow, Frame, Layer, Look, Particles, PassTime,
     Profiler, Renderer, Scene, TargetFormat,
@@ -128,7 +128,8 @@ impl Offscreen {
         let particles = self.upload(shot)?;
         self.submit(shot, &particles)?;
         let rgba = self.read_picture()?;
-        let (others, own): (Vec<Aov>, Vec<Aov>) = aovs.iter().partition(|aov| aov.settings(&shot.settings).is_some());
+        let of_frames = aovs.iter().filter(|aov| **aov != Aov::Passage);
+        let (others, own): (Vec<Aov>, Vec<Aov>) = of_frames.partition(|aov| aov.settings(&shot.settings).is_some());
         let mut images = self.read_images(shot, &own)?;
         let settings: Vec<_> = others.iter().filter_map(|aov| aov.settings(&shot.settings)).collect();
         for (i, settings_i) in settings.iter().enumerate() {
@@ -141,6 +142,10 @@ impl Offscreen {
             let shot = Shot { settings: *settings_i, ..*shot };
             self.submit(&shot, &particles)?;
             images.extend(self.read_images(&shot, &of_it)?);
+        }
+        if aovs.contains(&Aov::Passage) {
+            let values = self.passage(shot, &particles)?;
+            images.push((Aov::Passage, Image { size: shot.size, channels: Aov::Passage.channels(), values }));
         }
         let image = |aov: &Aov| images.iter().find(|(kind, _)| kind == aov).map(|(_, image)| image.clone());
         Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().filter_map(image).collect() })
@@ -273,8 +278,9 @@ impl Offscreen {
         if shot.background == Background::Scene {
             self.backdrop.draw(device, queue, &mut pass, &frame);
         }
-        for layer in [Layer::Opaque, Layer::FarGlass] {
-            self.bodies.draw(device, queue, &mut pass, &frame, shot.bodies, layer);
+        self.bodies.draw(device, queue, &mut pass, &frame, shot.bodies, Layer::Opaque);
+        if shot.background != Background::Transparent {
+            self.bodies.draw(device, queue, &mut pass, &frame, shot.bodies, Layer::FarGlass);
         }
     }
 
@@ -292,17 +298,15 @@ impl Offscreen {
             timestamp_writes: self.renderer.profiler().and_then(|profiler| profiler.render("shade")),
             ..Default::default()
         });
-        self.renderer.composite(&mut pass);
         let Gpu { device, queue, .. } = &self.gpu;
         let shadow = self.renderer.floor_shadow();
-        self.bodies.draw(
-            device,
-            queue,
-            &mut pass,
-            &surroundings_of(shot, shadow.as_ref(), self.renderer.environment_map()),
-            shot.bodies,
-            Layer::NearGlass,
-        );
+        let frame = surroundings_of(shot, shadow.as_ref(), self.renderer.environment_map());
+        if shot.background == Background::Transparent {
+            // Blended once: what the fluid sees through itself is opaque or nothing.
+            self.bodies.draw(device, queue, &mut pass, &frame, shot.bodies, Layer::FarGlass);
+        }
+        self.renderer.composite(&mut pass);
+        self.bodies.draw(device, queue, &mut pass, &frame, shot.bodies, Layer::NearGlass);
     }
 
     fn draw_display(
@@ -342,6 +346,10 @@ impl Offscreen {
             if *aov == Aov::Picture {
                 return Ok((*aov, aov.image(shot.size, &self.read_linear()?, &nearness, &shot.view)));
             }
+            if *aov == Aov::Motion {
+                let depth: Vec<f32> = nearness.iter().map(|nearness| shot.view.depth_of(*nearness)).collect();
+                return Ok((*aov, aov.image(shot.size, &motion::motion(shot, &depth), &nearness, &shot.view)));
+            }
             let (buffer, per_pixel) = aov.source(&buffers, curvature.as_ref());
             Ok((*aov, aov.image(shot.size, &words(buffer, per_pixel)?, &nearness, &shot.view)))
         };
@@ -356,6 +364,17 @@ impl Offscreen {
         let values = readback::read_words(&self.gpu.device, &self.gpu.queue, detail.values, count)?;
         let scale = size[0].div_ceil(detail.size[0]);
         Ok(pixels.map(|[x, y]| values[2 * (y / scale * detail.size[0] + x / scale) as usize + which]).collect())
+    }
+
+    /// What white behind everything adds to the picture.
+    fn passage(&mut self, shot: &Shot<'_>, particles: &Particles) -> Result<Vec<f32>, Error> {
+        let mut before = |background| {
+            self.submit(&Shot { background, ..*shot }, particles)?;
+            self.read_linear()
+        };
+        let (white, nothing) = (before(Background::White)?, before(Background::Transparent)?);
+        let pixels = white.as_chunks::<4>().0.iter().zip(nothing.as_chunks::<4>().0);
+        Ok(pixels.flat_map(|(white, nothing)| [0, 1, 2].map(|k| (white[k] - nothing[k]).clamp(0.0, 1.0))).collect())
     }
 
     fn read_linear(&self) -> Result<Vec<f32>, Error> {

@@ -39,6 +39,13 @@ impl Aov {
                 grey(values, |v| if v == 0.0 { 0.0 } else { 0.5 + 0.5 * v / most })
             }
             Self::RawClay | Self::Clay | Self::Foam => grey(values, encode),
+            Self::Passage => values.as_chunks::<3>().0.iter().map(|rgb| rgb.map(encode)).collect(),
+            Self::Motion => {
+                let (low, high) = range(values);
+                let most = high.max(-low).max(f32::MIN_POSITIVE);
+                let shown = |uv: &[f32; 2]| [0.5 + 0.5 * uv[0] / most, 0.5 + 0.5 * uv[1] / most, 0.5];
+                values.as_chunks::<2>().0.iter().map(shown).collect()
+            }
             Self::Color | Self::Picture => {
                 let (pixels, _) = values.as_chunks::<4>();
                 pixels.iter().map(|p| [p[0], p[1], p[2]].map(encode)).collect()

@@ -78,7 +78,12 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         let wanted = Wanted {
             show: options.show.map(|aov| aov.0),
             aovs: &outputs.aovs,
-            layers: if outputs.are_layered { &LAYERS } else { &[] },
+            layers: match (outputs.are_layered, particles.velocities()) {
+                (false, _) => &[],
+                (true, None) => &LAYERS,
+                (true, Some(_)) => &MOVING_LAYERS,
+            },
+            seconds_per_frame: 1.0 / options.fps(),
         };
         render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
         if index == 0 {
@@ -112,10 +117,15 @@ struct Wanted<'a> {
     aovs: &'a [outputs::AovKind],
     /// The layers of the picture's file; none: it is a PNG.
     layers: &'a [Aov],
+    /// The time that the motion in a layer takes.
+    seconds_per_frame: f64,
 }
 
 /// What an OpenEXR file of a picture holds.
-const LAYERS: [Aov; 4] = [Aov::Picture, Aov::Depth, Aov::Normal, Aov::Thickness];
+const LAYERS: [Aov; 6] = [Aov::Picture, Aov::Depth, Aov::Normal, Aov::Thickness, Aov::Passage, Aov::Albedo];
+/// The same of particles with velocities.
+const MOVING_LAYERS: [Aov; 7] =
+    [Aov::Picture, Aov::Depth, Aov::Normal, Aov::Thickness, Aov::Passage, Aov::Albedo, Aov::Motion];
 
 /// Renders one frame and writes its picture and buffers.
 fn render(
@@ -131,6 +141,14 @@ fn render(
         offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
     if let (Some(show), Some(image)) = (wanted.show, picture.aovs.last()) {
         picture.rgba = show.picture(image, shot.particles.reference_radius());
+    }
+    if !wanted.layers.is_empty() {
+        // Compositing programs want pixels to the next frame.
+        for (_, image) in
+            kinds.iter().zip(&mut picture.aovs).skip(wanted.aovs.len()).filter(|(k, _)| **k == Aov::Motion)
+        {
+            image.values.iter_mut().for_each(|value| *value *= wanted.seconds_per_frame as f32);
+        }
     }
     let layers: Vec<_> = kinds.iter().copied().zip(&picture.aovs).skip(wanted.aovs.len()).collect();
     if !wanted.layers.is_empty() {

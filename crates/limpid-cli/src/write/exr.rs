@@ -10,6 +10,7 @@ fn channel_names(aov: Aov) -> &'static [&'static str] {
         (Aov::RawDepth | Aov::Depth, _) => &["Z"],
         (Aov::RawNormal | Aov::Normal, _) => &["X", "Y", "Z"],
         (_, 1) => &["Y"],
+        (Aov::Motion, _) => &["u", "v"],
         (_, 3) => &["R", "G", "B"],
         _ => &["R", "G", "B", "A"],
     }
@@ -24,6 +25,9 @@ pub fn write(file: &mut (impl io::Write + io::Seek), aov: Aov, image: &limpid_he
 pub fn layer_name(aov: Aov) -> Option<&'static str> {
     match aov {
         Aov::Picture => None,
+        Aov::Passage => Some("transmittance"),
+        // What Nuke calls it.
+        Aov::Motion => Some("forward"),
         _ => Some(aov.name()),
     }
 }
