@@ -39,6 +39,10 @@ fn render(limpid: &Path, shot: &Shot) -> Result {
     if let Some((eye, target)) = shot.camera {
         command.args(["--camera-eye", eye, "--camera-target", target]);
     }
+    if shot.bodies {
+        let bodies = Path::new("data").join(shot.inputs[0]).with_file_name("bodies.json");
+        command.arg("--bodies").arg(bodies);
+    }
     output(&mut command).map(drop)
 }
 

@@ -13,6 +13,7 @@ mod large_splats;
 mod laws;
 mod narrow_range;
 mod normals;
+mod occlusion;
 mod optics;
 mod refusals;
 mod resolution;
