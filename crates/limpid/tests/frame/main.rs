@@ -18,6 +18,7 @@ mod optics;
 mod refusals;
 mod resolution;
 mod shading;
+mod shadow;
 mod slab;
 mod sphere;
 mod splat;
