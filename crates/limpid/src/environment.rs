@@ -1,6 +1,5 @@
 //! The surroundings that light the fluid: a procedural floor, sky and sun that flatter water with no input at all.
 
-use crate::shadow::SHADOW_TEXELS;
 use crate::{EnvironmentMap, View};
 use bytemuck::{Pod, Zeroable};
 use glam::{DQuat, DVec3, Vec3};
@@ -58,7 +57,7 @@ impl Environment {
             eye_from_center: (eye - self.center).as_vec3(),
             extent: self.extent as f32,
             sun_east: sun_east.as_vec3(),
-            shadow_texels: shadow.map_or(0, |_| SHADOW_TEXELS),
+            shadow_texels: shadow.map_or(0, |shadow| shadow.texels),
             sun_tangent: (0.5 * self.sun_size).tan() as f32,
             scene_texels: shadow.map_or(0, |shadow| shadow.scene_texels),
             sun_north: self.sun.cross(sun_east).as_vec3(),
@@ -90,6 +89,8 @@ pub(crate) struct ShadowTint {
     pub absorption: [f32; 3],
     /// r, world units.
     pub radius: f32,
+    /// Texels along the edge of the fluid's map.
+    pub texels: u32,
     /// Texels along the edge of the scene's map; 0: it casts no shadow.
     pub scene_texels: u32,
 }

@@ -6,7 +6,7 @@ use crate::passes::{
     Composite, Curvature, Detail, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness,
     Tiles, Upsample, level_count,
 };
-use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow};
+use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
 use crate::{Environment, EnvironmentMap, Error, Foam, Optics, Particles, Settings, Smoothing, View};
@@ -275,7 +275,9 @@ impl Renderer {
         let absorption = optics.extinction_per_world(particles.reference_radius);
         let scene_texels = if scene.is_some() { SCENE_SHADOW_TEXELS } else { 0 };
         self.shadow_is_new = true;
-        self.shadow_tint = Some(ShadowTint { absorption, radius: particles.reference_radius, scene_texels });
+        let radius = particles.reference_radius;
+        let texels = shadow_texels(environment, radius);
+        self.shadow_tint = Some(ShadowTint { absorption, radius, texels, scene_texels });
     }
 
     /// The shadow that was last cast; None where none was for the last prepared frame.

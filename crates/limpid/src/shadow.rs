@@ -8,8 +8,15 @@ use crate::view::ViewUniform;
 use crate::{Environment, Particles, Scale};
 use bytemuck::Zeroable;
 
-/// Texels along the edge of the fluid's map.
-pub(crate) const SHADOW_TEXELS: u32 = 128;
+/// Most texels along the edge of the fluid's map.
+const MOST_TEXELS: u32 = 128;
+
+/// Texels along the edge of the fluid's map: never finer than a quarter of r, since splats blur it and their cost goes by
+/// the texels that they cover.
+pub(crate) fn shadow_texels(environment: &Environment, radius_world: f32) -> u32 {
+    let wanted = (8.0 * environment.extent / f64::from(radius_world)).ceil();
+    wanted.clamp(8.0, MOST_TEXELS.into()) as u32
+}
 
 /// Texels along the edge of the scene's.
 pub const SCENE_SHADOW_TEXELS: u32 = 1024;
@@ -34,7 +41,7 @@ pub(crate) struct Shadow {
     map: wgpu::Buffer,
 }
 
-const TEXELS: u64 = SHADOW_TEXELS as u64 * SHADOW_TEXELS as u64;
+const TEXELS: u64 = MOST_TEXELS as u64 * MOST_TEXELS as u64;
 const SCENE_TEXELS: u64 = SCENE_SHADOW_TEXELS as u64 * SCENE_SHADOW_TEXELS as u64;
 
 impl Shadow {
@@ -87,7 +94,7 @@ impl Shadow {
         environment: &Environment,
         scene: Option<&wgpu::Texture>,
     ) {
-        let size = [SHADOW_TEXELS; 2];
+        let size = [shadow_texels(environment, particles.reference_radius); 2];
         let view = environment.sun_view().uniform(size, Scale::Full, particles.origin);
         let settings = SettingsUniform {
             radius: particles.reference_radius,
@@ -112,7 +119,7 @@ impl Shadow {
         recorder.run("shadow", &self.resolve, &resources, &Grid::Image(size));
         if let Some(scene) = scene {
             let layout = wgpu::TexelCopyBufferLayout {
-                offset: 4 * WORDS * TEXELS,
+                offset: 4 * WORDS * u64::from(size[0]) * u64::from(size[1]),
                 bytes_per_row: Some(4 * SCENE_SHADOW_TEXELS),
                 rows_per_image: None,
             };

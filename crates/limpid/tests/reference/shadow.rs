@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3};
 use limpid::{Environment, ParticleSlices, Settings, View};
 use std::f64::consts::PI;
 
-const TEXELS: u32 = 128;
 const SLICES: usize = 16;
 /// Drawn radius over particle radius: blurs the map.
 const WIDE: f64 = 3.0;
@@ -58,9 +57,11 @@ impl Shadow {
         let north = sun.cross(sun.any_orthonormal_vector());
         let eye = center + 2.0 * extent * sun;
         let view = View::orthographic(eye, center, north, 2.0 * extent, 1.0, 0.02 * extent, 4.0 * extent);
-        let camera = Camera::new(view, [TEXELS; 2]);
+        // A texel is never finer than a quarter of r.
+        let texels = (8.0 * extent / radius).ceil().clamp(8.0, 128.0) as u32;
+        let camera = Camera::new(view, [texels; 2]);
         let balls = balls_of(particles, &camera, &Settings { splat_scale: WIDE as f32, ..Settings::default() });
-        let mut texels = vec![Texel::EMPTY; (TEXELS * TEXELS) as usize];
+        let mut texels = vec![Texel::EMPTY; camera.pixel_count()];
         let mut hits: Vec<(usize, f64, f64, f64)> = Vec::new();
         for ball in &balls {
             hits.extend(liquid_of(ball, &camera));
@@ -79,9 +80,10 @@ impl Shadow {
     pub fn light(&self, point: DVec3) -> DVec3 {
         let seen = self.camera.view.view_from_world.transform_point3(point);
         let px = self.camera.px_of(seen) - 0.5;
+        let size = f64::from(self.camera.size[0]);
         let texel = |x: f64, y: f64| {
-            let inside = x >= 0.0 && y >= 0.0 && x < f64::from(TEXELS) && y < f64::from(TEXELS);
-            if inside { self.texels[(y * f64::from(TEXELS) + x) as usize].before(-seen.z) } else { 0.0 }
+            let inside = x >= 0.0 && y >= 0.0 && x < size && y < size;
+            if inside { self.texels[(y * size + x) as usize].before(-seen.z) } else { 0.0 }
         };
         let DVec2 { x, y } = px.floor();
         let part = px - px.floor();
@@ -98,12 +100,12 @@ fn liquid_of(ball: &Ball, camera: &Camera) -> Vec<(usize, f64, f64, f64)> {
     let per_chord = 6.0 / (PI * WIDE.powi(3));
     let own_radius = ball.radius / WIDE;
     let center = -ball.center.z;
-    let [columns, rows] = ball.texels(camera, 1.0, [TEXELS; 2]);
+    let [columns, rows] = ball.texels(camera, 1.0, camera.size);
     let texels = rows.flat_map(|y| columns.clone().map(move |x| [x, y]));
     let hit = |[x, y]: [u32; 2]| {
         let chord = ball.chord(&camera.ray(DVec2::new(x.into(), y.into()) + 0.5), camera.view.near)?;
         let front = (center - own_radius).max(camera.view.near);
-        Some(((y * TEXELS + x) as usize, per_chord * (chord.end - chord.start), front, center + own_radius))
+        Some(((y * camera.size[0] + x) as usize, per_chord * (chord.end - chord.start), front, center + own_radius))
     };
     texels.filter_map(hit).collect()
 }
