@@ -1,5 +1,6 @@
 //! The surroundings that light the fluid: a procedural floor, sky and sun that flatter water with no input at all.
 
+use crate::shadow::CAUSTICS_FIRST_WORD;
 use crate::{EnvironmentMap, View};
 use bytemuck::{Pod, Zeroable};
 use glam::{DQuat, DVec3, Vec3};
@@ -15,6 +16,9 @@ pub struct Environment {
     pub sun_strength: f64,
     /// Angle that the sun's disc spans, radians, default 0.04: how soft shadows are. (The real sun's is 0.0093.)
     pub sun_size: f64,
+    /// Whether the liquid gathers the sun's light on the scene ([`crate::Renderer::cast_shadow`]), default no: it then takes half of
+    /// it away, evenly.
+    pub caustics: bool,
     /// The floor's plane: a point p is on it where dot(p, up) is this. None: sky below the horizon too.
     pub floor: Option<f64>,
     /// The middle of the picture's subject.
@@ -34,7 +38,7 @@ impl Environment {
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
         // A subject without size gets one, so that nothing is divided by 0.
         let extent = Some(0.5 * (max - min).length()).filter(|extent| *extent > 0.0).unwrap_or(1.0);
-        Self { up, sun, sun_strength: 1.0, sun_size: 0.04, floor: Some(floor), center, extent }
+        Self { up, sun, sun_strength: 1.0, sun_size: 0.04, caustics: false, floor: Some(floor), center, extent }
     }
 
     /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
@@ -58,7 +62,7 @@ impl Environment {
             extent: self.extent as f32,
             sun_east: sun_east.as_vec3(),
             shadow_texels: shadow.map_or(0, |shadow| shadow.texels),
-            sun_tangent: (0.5 * self.sun_size).tan() as f32,
+            sun_tangent: self.sun_tangent(),
             scene_texels: shadow.map_or(0, |shadow| shadow.scene_texels),
             sun_north: self.sun.cross(sun_east).as_vec3(),
             shadow_radius: shadow.map_or(1.0, |tint| tint.radius),
@@ -68,8 +72,14 @@ impl Environment {
             map_levels: map.map_or(0, |map| map.lobes.levels),
             map_middle: (tilt * DVec3::NEG_Z).as_vec3(),
             map_alpha: map.map_or(1.0, |map| map.lobes.first_alpha),
-            padding: [0; 2],
+            caustic_texels: shadow.map_or(0, |shadow| shadow.caustic_texels),
+            caustic_first: CAUSTICS_FIRST_WORD,
         }
+    }
+
+    /// Of half the angle that the sun's disc spans.
+    pub(crate) fn sun_tangent(&self) -> f32 {
+        (0.5 * self.sun_size).tan() as f32
     }
 
     /// The sun's view of the subject, orthographic with reversed depth: hosts draw their scene's depth by it for
@@ -93,6 +103,8 @@ pub(crate) struct ShadowTint {
     pub texels: u32,
     /// Texels along the edge of the scene's map; 0: it casts no shadow.
     pub scene_texels: u32,
+    /// Texels along the edge of the caustics; 0: there are none.
+    pub caustic_texels: u32,
 }
 
 /// `environment.wgsl`'s `Environment`.
@@ -119,5 +131,6 @@ pub(crate) struct EnvironmentUniform {
     pub map_alpha: f32,
     pub sun_tangent: f32,
     pub scene_texels: u32,
-    pub padding: [u32; 2],
+    pub caustic_texels: u32,
+    pub caustic_first: u32,
 }

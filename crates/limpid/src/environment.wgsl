@@ -24,6 +24,8 @@ struct Environment {
     map_alpha: f32, // GGX's, of level 1; each level after it has twice as much
     sun_tangent: f32, // of half the angle that the sun's disc spans
     scene_texels: u32, // along the edge of what the sun sees of the scene; 0: nothing
+    caustic_texels: u32, // along the edge of the caustics; 0: none
+    caustic_first: u32, // word of `shadow` where they begin
 }
 
 const SUN_LIGHT: vec3f = vec3f(1.0, 0.94, 0.84);
@@ -181,27 +183,81 @@ fn sun_seen(across: vec2f, depth: f32) -> f32 {
     return free / f32(SUN_TAPS);
 }
 
-// Share of the sun's light that reaches a place, given relative to the centre: what the scene leaves free, absorbed by the
-// liquid on its way as Beer and Lambert say, and half of it bent elsewhere where there is more than a film of liquid.
-fn sunlight(at: vec3f) -> vec3f {
-    let across = vec2f(dot(at, environment.sun_east), -dot(at, environment.sun_north)) / environment.extent;
-    let depth = 2.0 * environment.extent - dot(at, environment.sun);
-    var light = vec3f(1.0);
-    if environment.shadow_texels > 0u {
-        let liquid = liquid_toward_sun(across, depth);
-        let bent = 0.5 - 0.5 * exp(-0.25 * liquid / environment.shadow_radius);
-        light = exp(-environment.shadow_absorption * liquid) * (1.0 - bent);
-    }
-    if environment.scene_texels > 0u {
-        light *= sun_seen(across, depth);
+// The sun's light at a place of its view after the liquid's surface has gathered or scattered it, over that without liquid,
+// and the liquid it came through, world units (caustics.wgsl); bilinear.
+fn gathered(across: vec2f) -> vec2f {
+    let size = i32(environment.caustic_texels);
+    let texel = (0.5 * across + 0.5) * f32(size) - 0.5;
+    let low = vec2i(floor(clamp(texel, vec2f(-2.0), vec2f(f32(size)))));
+    let part = texel - floor(texel);
+    var light = vec2f(0.0);
+    for (var corner = 0; corner < 4; corner++) {
+        let offset = vec2i(corner & 1, corner >> 1u);
+        let at = low + offset;
+        let inside = min(min(at.x, at.y), size - 1 - max(at.x, at.y)) >= 0;
+        let along = select(1.0 - part, part, offset == vec2i(1));
+        let first = environment.caustic_first + 2u * u32(select(0, at.y * size + at.x, inside));
+        light += along.x * along.y * select(vec2f(1.0, 0.0), vec2f(shadow[first], shadow[first + 1u]), inside);
     }
     return light;
 }
 
-// The same for a place on the liquid's surface, given relative to the eye: what lies between it and the sun, but for the
-// bumps of the surface itself.
+// A place of the sun's view: across it, in half widths, and its depth.
+struct SunPlace {
+    across: vec2f,
+    depth: f32,
+}
+
+// Of a place given relative to the centre.
+fn sun_place(at: vec3f) -> SunPlace {
+    let across = vec2f(dot(at, environment.sun_east), -dot(at, environment.sun_north)) / environment.extent;
+    return SunPlace(across, 2.0 * environment.extent - dot(at, environment.sun));
+}
+
+// Share of the sun's light that the liquid lets through to a place, absorbed on its way as Beer and Lambert say, and half of
+// it bent elsewhere where there is more than a film of liquid.
+fn liquid_sunlight(place: SunPlace) -> vec3f {
+    let liquid = liquid_toward_sun(place.across, place.depth);
+    let bent = 0.5 - 0.5 * exp(-0.25 * liquid / environment.shadow_radius);
+    return exp(-environment.shadow_absorption * liquid) * (1.0 - bent);
+}
+
+// The same with the light where the liquid's surface bends it to.
+fn caustic_sunlight(place: SunPlace) -> vec3f {
+    let light_liquid = gathered(place.across);
+    return exp(-environment.shadow_absorption * light_liquid.y) * light_liquid.x;
+}
+
+// Share that the scene leaves free.
+fn scene_sunlight(place: SunPlace) -> f32 {
+    if environment.scene_texels == 0u {
+        return 1.0;
+    }
+    return sun_seen(place.across, place.depth);
+}
+
+// Share of the sun's light that reaches a place of the scene, given relative to the centre.
+fn sunlight(at: vec3f) -> vec3f {
+    let place = sun_place(at);
+    var light = vec3f(1.0);
+    if environment.caustic_texels > 0u {
+        light = caustic_sunlight(place);
+    } else if environment.shadow_texels > 0u {
+        light = liquid_sunlight(place);
+    }
+    return light * scene_sunlight(place);
+}
+
+// For a place on the liquid's surface, given relative to the eye: what lies between it and the sun, but for the bumps of the
+// surface itself.
 fn sunlight_on_liquid(from_eye: vec3f) -> vec3f {
-    return sunlight(environment.eye_from_center + from_eye + 2.0 * environment.shadow_radius * environment.sun);
+    let at = environment.eye_from_center + from_eye + 2.0 * environment.shadow_radius * environment.sun;
+    let place = sun_place(at);
+    var light = vec3f(1.0);
+    if environment.shadow_texels > 0u {
+        light = liquid_sunlight(place);
+    }
+    return light * scene_sunlight(place);
 }
 
 // Light from a direction, seen from a place given relative to the eye (world space). `spread` is the width of the view

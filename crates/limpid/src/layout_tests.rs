@@ -1,6 +1,7 @@
 //! Structs shared with WGSL lie in memory as naga lays them out.
 
 use crate::bodies::BodyUniform;
+use crate::caustics::LensUniform;
 use crate::display::DisplayUniform;
 use crate::environment::EnvironmentUniform;
 use crate::passes::{DetailUniform, OpticsUniform};
@@ -22,6 +23,10 @@ const SHADE: &str = concat!(
 
 /// The noise image's structs; the functions need the frame's.
 const DETAIL: &str = concat!(include_str!("frame.wgsl"), include_str!("passes/detail_image.wgsl"));
+
+/// The caustics' own struct.
+const LENS: &str =
+    concat!(include_str!("frame.wgsl"), include_str!("lens.wgsl"), include_str!("caustics_resolve.wgsl"));
 
 /// Name and offset of the members of a WGSL struct, and its size.
 fn wgsl_layout(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
@@ -89,6 +94,12 @@ fn settings() {
 }
 
 #[test]
+fn lens() {
+    let rust = rust_layout!(LensUniform { floor, shadow_texels, scene_texels, first, sun_tangent });
+    assert_same(rust, wgsl_layout(LENS, "Lens"));
+}
+
+#[test]
 fn optics() {
     let rust = rust_layout!(OpticsUniform {
         absorption,
@@ -152,7 +163,8 @@ fn environment() {
         map_alpha,
         sun_tangent,
         scene_texels,
-        padding,
+        caustic_texels,
+        caustic_first,
     });
     assert_same(rust, wgsl_layout(SHADE, "Environment"));
 }

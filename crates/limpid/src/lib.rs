@@ -6,6 +6,7 @@
 mod agitation;
 mod backdrop;
 mod bodies;
+mod caustics;
 mod detail;
 mod display;
 mod environment;

@@ -1,5 +1,6 @@
 //! The frame: one road from particles to the host's target.
 
+use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
@@ -146,6 +147,8 @@ pub struct Renderer {
     composite: Composite,
     curvature: Curvature,
     shadow: Shadow,
+    /// Made when first asked for.
+    caustics: Option<Caustics>,
     /// Of the shadow cast for the frame to come or the last one.
     shadow_tint: Option<ShadowTint>,
     /// Whether no frame has been prepared with it.
@@ -220,6 +223,7 @@ impl Renderer {
             composite: Composite::new(device, &layout, target),
             curvature: Curvature::new(device, &layout),
             shadow: Shadow::new(device, &layout),
+            caustics: None,
             shadow_tint: None,
             shadow_is_new: false,
             environment_map: None,
@@ -255,6 +259,9 @@ impl Renderer {
     /// [`Self::floor_shadow`]. Call it before the frame's [`crate::Backdrop`] and [`crate::Bodies`] are drawn, and before
     /// [`Self::prepare`]. `scene`: what the sun sees of the scene by [`Environment::sun_view`], a `Depth32Float` texture of
     /// [`crate::SCENE_SHADOW_TEXELS`] squared that can be copied from; None: the scene casts no shadow.
+    ///
+    /// # Errors
+    /// Caustics that the device cannot hold.
     #[expect(
         clippy::too_many_arguments,
         reason = "the host's device, queue and encoder, and what casts a shadow in which light"
@@ -268,16 +275,33 @@ impl Renderer {
         scene: Option<&wgpu::Texture>,
         environment: &Environment,
         optics: &Optics,
-    ) {
+    ) -> Result<(), Error> {
         let recorder =
             &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
         self.shadow.encode(recorder, queue, particles, environment, scene);
         let absorption = optics.extinction_per_world(particles.reference_radius);
         let scene_texels = if scene.is_some() { SCENE_SHADOW_TEXELS } else { 0 };
+        let caustic_texels = if environment.caustics { CAUSTIC_TEXELS } else { 0 };
+        if environment.caustics {
+            let caustics = match &mut self.caustics {
+                Some(caustics) => caustics,
+                none => none.insert(Caustics::new(device)?),
+            };
+            let passes = SurfacePasses {
+                splat: &mut self.splat,
+                tiles: &self.tiles,
+                smooth: &self.smooth,
+                normals: &self.normals,
+                nothing: &self.nothing,
+            };
+            let light = Light { particles, environment, optics, scene_texels };
+            caustics.encode(recorder, queue, passes, &light, &self.shadow);
+        }
         self.shadow_is_new = true;
         let radius = particles.reference_radius;
         let texels = shadow_texels(environment, radius);
-        self.shadow_tint = Some(ShadowTint { absorption, radius, texels, scene_texels });
+        self.shadow_tint = Some(ShadowTint { absorption, radius, texels, scene_texels, caustic_texels });
+        Ok(())
     }
 
     /// The shadow that was last cast; None where none was for the last prepared frame.

@@ -1,5 +1,6 @@
 //! What the sun sees: the fluid's shadow on the scene and on itself (`shadow.wgsl`), and the scene's on both.
 
+use crate::caustics::CAUSTIC_TEXELS;
 use crate::environment::ShadowTint;
 use crate::gpu::{Grid, Kernel, Recorder, Slot, bind, storage_buffer, uniform_buffer};
 use crate::passes::{ellipsoids_constant, module};
@@ -37,12 +38,16 @@ pub(crate) struct Shadow {
     resolve: Kernel,
     ends: wgpu::Buffer,
     sums: wgpu::Buffer,
-    /// The fluid's map, then the depth buffer of the scene.
+    /// The fluid's map, then the depth buffer of the scene; the caustics in a place of their own.
     map: wgpu::Buffer,
 }
 
 const TEXELS: u64 = MOST_TEXELS as u64 * MOST_TEXELS as u64;
+/// Light and liquid of each texel.
+const CAUSTIC_WORDS: u64 = 2 * CAUSTIC_TEXELS as u64 * CAUSTIC_TEXELS as u64;
 const SCENE_TEXELS: u64 = SCENE_SHADOW_TEXELS as u64 * SCENE_SHADOW_TEXELS as u64;
+/// Where `caustics.rs` writes into the map: after the largest that may lie before.
+pub(crate) const CAUSTICS_FIRST_WORD: u32 = (WORDS * TEXELS + SCENE_TEXELS) as u32;
 
 impl Shadow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
@@ -71,7 +76,7 @@ impl Shadow {
             resolve: Kernel::new(device, frame, &resolve, "resolve", &[Slot::Read, Slot::Read, Slot::Write]),
             ends: storage_buffer(device, "shadow ends", 8 * TEXELS),
             sums: storage_buffer(device, "shadow sums", 4 * SLICES * TEXELS),
-            map: storage_buffer(device, "shadow", 4 * (WORDS * TEXELS + SCENE_TEXELS)),
+            map: storage_buffer(device, "shadow", 4 * (u64::from(CAUSTICS_FIRST_WORD) + CAUSTIC_WORDS)),
         }
     }
 

@@ -54,6 +54,7 @@ impl Stage {
             sun: sun(options)?.unwrap_or(around.sun),
             sun_strength: options.sun(),
             sun_size: options.sun_size(),
+            caustics: options.caustics(),
             floor: around.floor.filter(|_| options.has_floor()),
             ..around
         };

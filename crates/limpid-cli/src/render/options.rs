@@ -113,7 +113,7 @@ pub struct Options {
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub normal_step: Option<f64>,
 
-    /// Preset of the resolutions below; each can be overridden
+    /// Preset of the resolutions below and of --caustics; each can be overridden
     #[arg(long, value_name = "NAME", value_parser = choice::<Quality>(), help_heading = "Quality")]
     pub quality: Option<Named<Quality>>,
     /// Pixels along one side of a pixel of the fluid, which is splatted, smoothed and shaded at that resolution
@@ -194,6 +194,9 @@ pub struct Options {
     /// Angle that the sun's disc spans, in degrees: how soft the shadows of bodies are
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, help_heading = "Scene")]
     pub sun_size: Option<f64>,
+    /// Whether the liquid's surface bends the sun's light, and gathers it on floor and bodies
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Scene")]
+    pub caustics: Option<Named<bool>>,
     /// Mesh to draw beside the fluid, in world units: .obj, .gltf, .glb, .ply or .stl; may be given several times. One whose
     /// file name a body of --bodies has is that body's mesh
     #[arg(long, value_name = "FILE", action = ArgAction::Append, help_heading = "Scene")]
@@ -275,6 +278,7 @@ impl Options {
             background: Some(Named(Background::default())),
             exposure: Some(EXPOSURE),
             sun_size: Some(SUN_SIZE_DEGREES),
+            caustics: Some(Named(false)),
             agitation_threshold: Some(AgitationLimits::default().threshold),
             cooling: Some(AgitationLimits::default().cooling),
             fps: Some(FPS),
@@ -300,6 +304,7 @@ impl Options {
             floor: has_map.then_some(Named(false)),
             filter_scale: scales.map(|(filter, _)| Named(filter)),
             thickness_scale: scales.map(|(_, thickness)| Named(thickness)),
+            caustics: self.quality.map(|quality| Named(quality.0 == Quality::High)),
             ..smoothing
         }
     }
@@ -512,6 +517,11 @@ impl Options {
     /// What is behind the fluid.
     pub fn background(&self) -> Background {
         self.background.map_or(Background::default(), |background| background.0)
+    }
+
+    /// Whether the liquid bends the sun's light on the scene.
+    pub fn caustics(&self) -> bool {
+        self.caustics.is_some_and(|on| on.0)
     }
 
     /// Angle that the sun's disc spans, radians.

@@ -5,6 +5,7 @@ mod reference;
 
 mod common;
 
+mod caustics;
 mod composite;
 mod curvature_flow;
 mod detail;

@@ -3,6 +3,7 @@
 //! Images are rows of values, row 0 at the top. Depths are positive view depths, +infinity where there is no fluid.
 
 mod camera;
+mod caustics;
 mod curvature_flow;
 mod detail;
 mod environment;
@@ -17,12 +18,13 @@ mod upsample;
 mod window;
 
 pub use camera::{Camera, Ray};
+pub use caustics::{Caustics, SunSurface, TEXELS as CAUSTIC_TEXELS};
 pub use curvature_flow::{curvature_flow, mean_curvature};
 pub use detail::living;
 pub use environment::{Scene, Surroundings, scene_of};
 pub use narrow_range::narrow_range;
 pub use normals::normals;
-pub use shade::{extinction, shade, transmittance};
+pub use shade::{extinction, fresnel, shade, transmittance};
 pub use shadow::Shadow;
 pub use splat::{Ball, balls_of, raw_depth};
 pub use thickness::{blurred, liquid, upsampled};

@@ -187,7 +187,7 @@ fn reflectance(optics: &Optics, cosine: f64) -> DVec3 {
 }
 
 /// Unpolarised reflectance by Snell's law and the amplitudes of both polarisations.
-fn fresnel(cosine: f64, index: f64) -> f64 {
+pub fn fresnel(cosine: f64, index: f64) -> f64 {
     let inner = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
     let across = (cosine - index * inner) / (cosine + index * inner);
     let along = (index * cosine - inner) / (index * cosine + inner);

@@ -76,19 +76,29 @@ impl Shadow {
         Self { camera, texels, absorption_per_world, radius }
     }
 
-    /// Share of the sun's light that reaches a point of the world.
-    pub fn light(&self, point: DVec3) -> DVec3 {
-        let seen = self.camera.view.view_from_world.transform_point3(point);
-        let px = self.camera.px_of(seen) - 0.5;
+    /// Liquid along the whole ray through a place of the map, which is 1 wide and high.
+    pub fn along(&self, place: DVec2) -> f64 {
+        self.before(place * f64::from(self.camera.size[0]), f64::INFINITY)
+    }
+
+    /// Liquid between the sun and a depth through a pixel position, bilinear.
+    fn before(&self, px: DVec2, depth: f64) -> f64 {
+        let px = px - 0.5;
         let size = f64::from(self.camera.size[0]);
         let texel = |x: f64, y: f64| {
             let inside = x >= 0.0 && y >= 0.0 && x < size && y < size;
-            if inside { self.texels[(y * size + x) as usize].before(-seen.z) } else { 0.0 }
+            if inside { self.texels[(y * size + x) as usize].before(depth) } else { 0.0 }
         };
         let DVec2 { x, y } = px.floor();
         let part = px - px.floor();
         let row = |y: f64| texel(x, y) * (1.0 - part.x) + texel(x + 1.0, y) * part.x;
-        let depth = row(y) * (1.0 - part.y) + row(y + 1.0) * part.y;
+        row(y) * (1.0 - part.y) + row(y + 1.0) * part.y
+    }
+
+    /// Share of the sun's light that reaches a point of the world.
+    pub fn light(&self, point: DVec3) -> DVec3 {
+        let seen = self.camera.view.view_from_world.transform_point3(point);
+        let depth = self.before(self.camera.px_of(seen), -seen.z);
         let absorbed = (-self.absorption_per_world * depth).exp();
         // Half of it is bent elsewhere, but by a thin film.
         absorbed * (0.5 + 0.5 * (-0.25 * depth / self.radius).exp())

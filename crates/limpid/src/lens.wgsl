@@ -1,0 +1,41 @@
+// What both kernels of the caustics know beside the sun's view. Whoever includes this binds `lens` and `shadow`, shadow.rs's map.
+
+struct Lens {
+    floor: vec4f, // the floor's plane in the sun's view: dot(xyz, place) = w; all 0: none
+    shadow_texels: u32, // along the edge of the fluid's map (shadow.wgsl)
+    scene_texels: u32, // along the edge of the scene's, which follows it; 0: no scene
+    first: u32, // word of the map where the result goes
+    sun_tangent: f32, // of half the angle that the sun's disc spans
+}
+
+// Words of a texel of the fluid's map; the last is all the liquid along the ray.
+const SHADOW_WORDS: u32 = 18u;
+// Counts of one pixel's light, and of that light times the liquid it came through, in half widths of the view.
+const COUNTS: f32 = 32768.0;
+
+// Half the width of the view, world units.
+fn half_width() -> f32 {
+    return 0.5 * f32(view.size.x) * view.px_step.x;
+}
+
+// Depth of the first place of the scene through a pixel position of the sun's view.
+fn landing_depth(px: vec2f) -> f32 {
+    let across = view.px_zero + px * view.px_step;
+    let upward = lens.floor.z;
+    let floor_depth = (dot(lens.floor.xy, across) - lens.floor.w) / max(upward, 1e-6);
+    let depth = select(view.far, floor_depth, upward > 0.01);
+    if lens.scene_texels == 0u {
+        return depth;
+    }
+    let size = i32(lens.scene_texels);
+    let texel = clamp(vec2i(floor(px / vec2f(view.size) * f32(size))), vec2i(0), vec2i(size - 1));
+    let fluid = lens.shadow_texels * lens.shadow_texels * SHADOW_WORDS;
+    return min(depth, mix(view.far, view.near, shadow[fluid + u32(texel.y * size + texel.x)]));
+}
+
+// A point of a disc, evenly spread (Vogel 1979), turned by an angle that differs from pixel to pixel: grain, not steps.
+fn on_disc(tap: i32, taps: i32, at: vec2i) -> vec2f {
+    let turn = 6.2831853 * fract(52.9829189 * fract(dot(vec2f(at), vec2f(0.06711056, 0.00583715))));
+    let angle = 2.39996323 * f32(tap) + turn;
+    return sqrt((f32(tap) + 0.5) / f32(taps)) * vec2f(cos(angle), sin(angle));
+}
