@@ -217,7 +217,7 @@ impl Offscreen {
 
         let Shot { environment, bodies, settings, .. } = shot;
         // Whatever the background: the fluid mirrors the same surroundings before all of them.
-        let casters = self.bodies.from_sun(device, queue, &mut encoder, environment, bodies);
+        let casters = self.bodies.from_lights(device, queue, &mut encoder, environment, bodies);
         self.renderer.cast_shadow(device, queue, &mut encoder, particles, casters, environment, &settings.optics)?;
         self.draw_scene(&mut encoder, shot, &scene, &depth);
         encoder.copy_texture_to_texture(

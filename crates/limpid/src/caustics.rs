@@ -107,10 +107,9 @@ impl Caustics {
         queue.write_buffer(&self.lens, 0, bytemuck::bytes_of(&lens_uniform(light)));
         queue.write_buffer(&self.optics, 0, bytemuck::bytes_of(&OpticsUniform::new(optics, radius)));
 
+        let recorder = &mut recorder.in_frame(&self.frame_group);
         // Timed as a whole: what is not measured counts to the next pass that is.
         let profiler = recorder.profiler.take();
-        let (device, encoder) = (recorder.device, &mut *recorder.encoder);
-        let recorder = &mut Recorder { device, encoder, frame_group: &self.frame_group, profiler: None };
         passes.splat.clear(recorder, targets);
         particles.chunks.iter().for_each(|chunk| passes.splat.spheres(recorder, chunk, targets));
         passes.tiles.encode(recorder, targets);

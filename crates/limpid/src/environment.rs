@@ -1,9 +1,24 @@
 //! The surroundings that light the fluid: a procedural floor, sky and sun that flatter water with no input at all.
 
-use crate::shadow::CAUSTICS_FIRST_WORD;
+use crate::shadow::{CAUSTICS_FIRST_WORD, LIGHT_WORDS};
 use crate::{EnvironmentMap, View};
 use bytemuck::{Pod, Zeroable};
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3, Vec4};
+
+/// Lights beside the sun that an [`Environment`] can have.
+pub const MOST_LAMPS: usize = 3;
+
+/// The sun and the others.
+pub(crate) const MOST_LIGHTS: usize = 1 + MOST_LAMPS;
+
+/// A distant light beside the sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// Unit vector towards the light.
+    pub toward: DVec3,
+    /// Its linear colour; 1 is as bright as the sun at strength 1.
+    pub color: [f32; 3],
+}
 
 /// Procedural surroundings, in world space. Colours are linear; 1 is a white wall in the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +31,8 @@ pub struct Environment {
     pub sun_strength: f64,
     /// Angle that the sun's disc spans, radians, default 0.04: how soft shadows are. (The real sun's is 0.0093.)
     pub sun_size: f64,
+    /// Other lights as far off as the sun, and with shadows as soft as its own; default none.
+    pub lamps: [Option<Lamp>; MOST_LAMPS],
     /// Whether the liquid gathers the sun's light on the scene ([`crate::Renderer::cast_shadow`]), default no: it then takes half of
     /// it away, evenly.
     pub caustics: bool,
@@ -38,7 +55,17 @@ impl Environment {
         let sun = (1.1 * up - 0.75 * away - 0.8 * left).normalize();
         // A subject without size gets one, so that nothing is divided by 0.
         let extent = Some(0.5 * (max - min).length()).filter(|extent| *extent > 0.0).unwrap_or(1.0);
-        Self { up, sun, sun_strength: 1.0, sun_size: 0.04, caustics: false, floor: Some(floor), center, extent }
+        Self {
+            up,
+            sun,
+            sun_strength: 1.0,
+            sun_size: 0.04,
+            lamps: [None; MOST_LAMPS],
+            caustics: false,
+            floor: Some(floor),
+            center,
+            extent,
+        }
     }
 
     /// `environment.wgsl`'s `Environment` for one camera: places are relative to its eye.
@@ -50,7 +77,6 @@ impl Environment {
     ) -> EnvironmentUniform {
         let tilt = DQuat::from_rotation_arc(DVec3::Y, self.up);
         let eye = view.eye();
-        let sun_east = self.sun.any_orthonormal_vector();
         EnvironmentUniform {
             up: self.up.as_vec3(),
             eye_height: self.floor.map_or(f64::from(f32::MIN), |floor| eye.dot(self.up) - floor) as f32,
@@ -60,20 +86,21 @@ impl Environment {
             tile_fade: 0.002,
             eye_from_center: (eye - self.center).as_vec3(),
             extent: self.extent as f32,
-            sun_east: sun_east.as_vec3(),
             shadow_texels: shadow.map_or(0, |shadow| shadow.texels),
-            sun_tangent: self.sun_tangent(),
             scene_texels: shadow.map_or(0, |shadow| shadow.scene_texels),
-            sun_north: self.sun.cross(sun_east).as_vec3(),
-            shadow_radius: shadow.map_or(1.0, |tint| tint.radius),
+            light_count: self.light_directions().count() as u32,
+            sun_tangent: self.sun_tangent(),
             shadow_absorption: shadow.map_or(Vec3::ZERO, |tint| tint.absorption.into()),
             sun_strength: self.sun_strength as f32,
             map_east: (tilt * DVec3::X).as_vec3(),
             map_levels: map.map_or(0, |map| map.lobes.levels),
             map_middle: (tilt * DVec3::NEG_Z).as_vec3(),
             map_alpha: map.map_or(1.0, |map| map.lobes.first_alpha),
+            shadow_radius: shadow.map_or(1.0, |tint| tint.radius),
             caustic_texels: shadow.map_or(0, |shadow| shadow.caustic_texels),
             caustic_first: CAUSTICS_FIRST_WORD,
+            padding: 0,
+            lights: self.light_uniforms(),
         }
     }
 
@@ -82,11 +109,41 @@ impl Environment {
         (0.5 * self.sun_size).tan() as f32
     }
 
-    /// The sun's view of the subject, orthographic with reversed depth: hosts draw their scene's depth by it for
-    /// [`crate::Renderer::cast_shadow`].
+    /// Where all lights are seen, the sun first.
+    fn light_directions(&self) -> impl Iterator<Item = DVec3> {
+        std::iter::once(self.sun).chain(self.lamps.iter().flatten().map(|lamp| lamp.toward))
+    }
+
+    fn light_uniforms(&self) -> [LightUniform; MOST_LIGHTS] {
+        // The sun's colour is the shader's.
+        let colors = std::iter::once([0.0; 3]).chain(self.lamps.iter().flatten().map(|lamp| lamp.color));
+        let mut uniforms = [LightUniform::zeroed(); MOST_LIGHTS];
+        for (index, ((toward, color), uniform)) in (0..).zip(self.light_directions().zip(colors).zip(&mut uniforms)) {
+            *uniform = LightUniform {
+                toward: toward.as_vec3(),
+                first: index * LIGHT_WORDS,
+                east: toward.any_orthonormal_vector().as_vec3(),
+                padding: 0,
+                color: Vec3::from(color).extend(1.0),
+            };
+        }
+        uniforms
+    }
+
+    /// The views of the subject from the sun and then from each lamp, orthographic with reversed depth: hosts draw their
+    /// scene's depth by them for [`crate::Renderer::cast_shadow`].
+    pub fn light_views(&self) -> impl Iterator<Item = View> {
+        self.light_directions().map(|toward| self.view_from(toward))
+    }
+
+    /// The first of [`Self::light_views`].
     pub fn sun_view(&self) -> View {
-        let eye = self.center + 2.0 * self.extent * self.sun;
-        let up = self.sun.cross(self.sun.any_orthonormal_vector());
+        self.view_from(self.sun)
+    }
+
+    fn view_from(&self, toward: DVec3) -> View {
+        let eye = self.center + 2.0 * self.extent * toward;
+        let up = toward.cross(toward.any_orthonormal_vector());
         let size = 2.0 * self.extent;
         View::orthographic(eye, self.center, up, size, 1.0, 0.01 * size, 2.0 * size)
     }
@@ -119,18 +176,30 @@ pub(crate) struct EnvironmentUniform {
     pub tile_fade: f32,
     pub eye_from_center: Vec3,
     pub extent: f32,
-    pub sun_east: Vec3,
     pub shadow_texels: u32,
-    pub sun_north: Vec3,
-    pub shadow_radius: f32,
+    pub scene_texels: u32,
+    pub light_count: u32,
+    pub sun_tangent: f32,
     pub shadow_absorption: Vec3,
     pub sun_strength: f32,
     pub map_east: Vec3,
     pub map_levels: u32,
     pub map_middle: Vec3,
     pub map_alpha: f32,
-    pub sun_tangent: f32,
-    pub scene_texels: u32,
+    pub shadow_radius: f32,
     pub caustic_texels: u32,
     pub caustic_first: u32,
+    pub padding: u32,
+    pub lights: [LightUniform; MOST_LIGHTS],
+}
+
+/// `environment.wgsl`'s `Light`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct LightUniform {
+    pub toward: Vec3,
+    pub first: u32,
+    pub east: Vec3,
+    pub padding: u32,
+    pub color: Vec4,
 }

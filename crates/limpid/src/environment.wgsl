@@ -11,21 +11,31 @@ struct Environment {
     east: vec3f,
     tile_fade: f32, // how fast the tiles fade into the distance, per tile squared
     eye_from_center: vec3f,
-    extent: f32, // half the edge of the shadow map
-    sun_east: vec3f, // the shadow map's axes
-    shadow_texels: u32, // along its edge; 0: no shadow
-    sun_north: vec3f,
-    shadow_radius: f32, // r of the fluid that casts it
+    extent: f32, // half the edge of the shadow maps
+    shadow_texels: u32, // along the edge of the fluid's; 0: no shadow
+    scene_texels: u32, // along the edge of what a light sees of the scene; 0: nothing
+    light_count: u32, // 1 or more
+    sun_tangent: f32, // of half the angle that the disc of the sun, or of a lamp, spans
     shadow_absorption: vec3f, // per world unit
     sun_strength: f32,
     map_east: vec3f, // of the map's middle
     map_levels: u32, // 0: no map
     map_middle: vec3f,
     map_alpha: f32, // GGX's, of level 1; each level after it has twice as much
-    sun_tangent: f32, // of half the angle that the sun's disc spans
-    scene_texels: u32, // along the edge of what the sun sees of the scene; 0: nothing
+    shadow_radius: f32, // r of the fluid that casts a shadow
     caustic_texels: u32, // along the edge of the caustics; 0: none
     caustic_first: u32, // word of `shadow` where they begin
+    padding: u32,
+    lights: array<Light, 4>, // the sun, then the lamps
+}
+
+// A light infinitely far off.
+struct Light {
+    toward: vec3f,
+    first: u32, // word of `shadow` where the fluid's map of this light begins; the scene's follows
+    east: vec3f, // of the maps
+    padding: u32,
+    color: vec4f, // a lamp's; the sun's is SUN_LIGHT
 }
 
 const SUN_LIGHT: vec3f = vec3f(1.0, 0.94, 0.84);
@@ -92,8 +102,13 @@ fn procedural_sky(direction: vec3f) -> vec3f {
 fn light_on(normal: vec3f, sunlight: vec3f) -> vec3f {
     let upward = 0.5 + 0.5 * dot(normal, environment.up);
     let around = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.50, 0.57, 0.66), upward);
-    let facing = max((dot(normal, environment.sun) + 0.5) / 1.5, 0.0);
-    return select(around, map_light(normal, 1.0), environment.map_levels > 0u) + SUN_LIGHT * sunlight * (0.7 * environment.sun_strength * facing);
+    let sun = SUN_LIGHT * sunlight * (environment.sun_strength * light_into(normal, environment.sun));
+    return select(around, map_light(normal, 1.0), environment.map_levels > 0u) + sun;
+}
+
+// How much of a light enters liquid of a normal: some way round its edge.
+fn light_into(normal: vec3f, toward: vec3f) -> f32 {
+    return 0.7 * max((dot(normal, toward) + 0.5) / 1.5, 0.0);
 }
 
 // Share of white squares of a checkerboard within a box of `width` tiles around a point.
@@ -107,40 +122,41 @@ fn checker(at: vec2f, width: vec2f) -> f32 {
 const SHADOW_WORDS: u32 = 18u;
 const SHADOW_SLICES: u32 = 16u;
 
-// Liquid before a depth from the sun, in one texel.
-fn liquid_before(at: vec2i, depth: f32) -> f32 {
+// Liquid before a depth from a light, in one texel.
+fn liquid_before(place: LightPlace, at: vec2i) -> f32 {
     let size = i32(environment.shadow_texels);
     let inside = min(min(at.x, at.y), size - 1 - max(at.x, at.y)) >= 0;
     let texel = clamp(at, vec2i(0), vec2i(size - 1));
-    let first = u32(texel.y * size + texel.x) * SHADOW_WORDS;
+    let first = place.first + u32(texel.y * size + texel.x) * SHADOW_WORDS;
     let front = shadow[first];
     let back = shadow[first + 1u];
-    let place = clamp((depth - front) / max(back - front, 1e-30), 0.0, 1.0) * f32(SHADOW_SLICES);
-    let slice = min(u32(place), SHADOW_SLICES - 1u);
+    let along = clamp((place.depth - front) / max(back - front, 1e-30), 0.0, 1.0) * f32(SHADOW_SLICES);
+    let slice = min(u32(along), SHADOW_SLICES - 1u);
     let low = select(0.0, shadow[first + 1u + slice], slice > 0u);
-    let before = mix(low, shadow[first + 2u + slice], place - f32(slice));
+    let before = mix(low, shadow[first + 2u + slice], along - f32(slice));
     return select(0.0, before, inside & (back > 0.0));
 }
 
-// Liquid between the sun and a place of the sun's view.
-fn liquid_toward_sun(across: vec2f, depth: f32) -> f32 {
-    let texel = (0.5 * across + 0.5) * f32(environment.shadow_texels) - 0.5;
+// Liquid between a light and a place of its view.
+fn liquid_toward(place: LightPlace) -> f32 {
+    let texel = (0.5 * place.across + 0.5) * f32(environment.shadow_texels) - 0.5;
     let low = floor(texel);
     let part = texel - low;
     let corner = vec2i(clamp(low, vec2f(-2.0), vec2f(f32(environment.shadow_texels))));
-    let top = mix(liquid_before(corner, depth), liquid_before(corner + vec2i(1, 0), depth), part.x);
-    let bottom = mix(liquid_before(corner + vec2i(0, 1), depth), liquid_before(corner + vec2i(1, 1), depth), part.x);
+    let top = mix(liquid_before(place, corner), liquid_before(place, corner + vec2i(1, 0)), part.x);
+    let bottom = mix(liquid_before(place, corner + vec2i(0, 1)), liquid_before(place, corner + vec2i(1, 1)), part.x);
     return mix(top, bottom, part.y);
 }
 
-// Depth from the sun of the nearest part of the scene at a texel of its map, which follows the fluid's.
-fn scene_from_sun(at: vec2i) -> f32 {
+// Depth from a light of the nearest part of the scene at a texel of its map, which follows the fluid's; beyond everything
+// where there is nothing.
+fn scene_from_light(first: u32, at: vec2i) -> f32 {
     let size = i32(environment.scene_texels);
     let texel = clamp(at, vec2i(0), vec2i(size - 1));
     let fluid = environment.shadow_texels * environment.shadow_texels * SHADOW_WORDS;
     let inside = min(min(at.x, at.y), size - 1 - max(at.x, at.y)) >= 0;
-    let nearness = select(0.0, shadow[fluid + u32(texel.y * size + texel.x)], inside);
-    return environment.extent * mix(4.0, 0.02, nearness);
+    let nearness = select(0.0, shadow[first + fluid + u32(texel.y * size + texel.x)], inside);
+    return select(3.4e38, environment.extent * mix(4.0, 0.02, nearness), nearness > 0.0);
 }
 
 const SUN_TAPS: i32 = 24;
@@ -151,9 +167,10 @@ fn on_disc(tap: i32, turn: f32) -> vec2f {
     return sqrt((f32(tap) + 0.5) / f32(SUN_TAPS)) * vec2f(cos(angle), sin(angle));
 }
 
-// Share of the sun's disc that the scene leaves free: soft where what hides it is far off (Fernando 2005).
-fn sun_seen(across: vec2f, depth: f32) -> f32 {
-    let texel = (0.5 * across + 0.5) * f32(environment.scene_texels) - 0.5;
+// Share of a light's disc that the scene leaves free: soft where what hides it is far off (Fernando 2005).
+fn disc_seen(place: LightPlace) -> f32 {
+    let depth = place.depth;
+    let texel = (0.5 * place.across + 0.5) * f32(environment.scene_texels) - 0.5;
     let texel_world = 2.0 * environment.extent / f32(environment.scene_texels);
     // Neighbouring texels take other points of the disc: grain in place of steps.
     let turn = 6.2831853 * fract(52.9829189 * fract(dot(floor(texel), vec2f(0.06711056, 0.00583715))));
@@ -162,7 +179,7 @@ fn sun_seen(across: vec2f, depth: f32) -> f32 {
     var blocker_depth = 0.0;
     for (var tap = 0; tap < SUN_TAPS; tap++) {
         let offset = widest * on_disc(tap, turn);
-        let nearest = scene_from_sun(vec2i(round(texel + offset)));
+        let nearest = scene_from_light(place.first, vec2i(round(texel + offset)));
         let margin = texel_world * (2.0 + length(offset));
         if nearest < depth - margin {
             blockers += 1.0;
@@ -177,7 +194,7 @@ fn sun_seen(across: vec2f, depth: f32) -> f32 {
     var free = 0.0;
     for (var tap = 0; tap < SUN_TAPS; tap++) {
         let offset = radius * on_disc(tap, turn);
-        let nearest = scene_from_sun(vec2i(round(texel + offset)));
+        let nearest = scene_from_light(place.first, vec2i(round(texel + offset)));
         free += select(1.0, 0.0, nearest < depth - texel_world * (2.0 + length(offset)));
     }
     return free / f32(SUN_TAPS);
@@ -202,62 +219,85 @@ fn gathered(across: vec2f) -> vec2f {
     return light;
 }
 
-// A place of the sun's view: across it, in half widths, and its depth.
-struct SunPlace {
+// A place in a light's view: across it, in half widths, and its depth; and where the light's maps begin.
+struct LightPlace {
     across: vec2f,
     depth: f32,
+    first: u32,
 }
 
 // Of a place given relative to the centre.
-fn sun_place(at: vec3f) -> SunPlace {
-    let across = vec2f(dot(at, environment.sun_east), -dot(at, environment.sun_north)) / environment.extent;
-    return SunPlace(across, 2.0 * environment.extent - dot(at, environment.sun));
+fn light_place(light: Light, at: vec3f) -> LightPlace {
+    let north = cross(light.toward, light.east);
+    let across = vec2f(dot(at, light.east), -dot(at, north)) / environment.extent;
+    return LightPlace(across, 2.0 * environment.extent - dot(at, light.toward), light.first);
 }
 
-// Share of the sun's light that the liquid lets through to a place, absorbed on its way as Beer and Lambert say, and half of
-// it bent elsewhere where there is more than a film of liquid.
-fn liquid_sunlight(place: SunPlace) -> vec3f {
-    let liquid = liquid_toward_sun(place.across, place.depth);
+// Share of a light that the liquid lets through to a place, absorbed on its way as Beer and Lambert say, and half of it bent
+// elsewhere where there is more than a film of liquid.
+fn liquid_share(place: LightPlace) -> vec3f {
+    if environment.shadow_texels == 0u {
+        return vec3f(1.0);
+    }
+    let liquid = liquid_toward(place);
     let bent = 0.5 - 0.5 * exp(-0.25 * liquid / environment.shadow_radius);
     return exp(-environment.shadow_absorption * liquid) * (1.0 - bent);
 }
 
-// The same with the light where the liquid's surface bends it to.
-fn caustic_sunlight(place: SunPlace) -> vec3f {
+// The same of the sun, with the light where the liquid's surface bends it to.
+fn caustic_share(place: LightPlace) -> vec3f {
     let light_liquid = gathered(place.across);
     return exp(-environment.shadow_absorption * light_liquid.y) * light_liquid.x;
 }
 
 // Share that the scene leaves free.
-fn scene_sunlight(place: SunPlace) -> f32 {
+fn scene_share(place: LightPlace) -> f32 {
     if environment.scene_texels == 0u {
         return 1.0;
     }
-    return sun_seen(place.across, place.depth);
+    return disc_seen(place);
 }
 
 // Share of the sun's light that reaches a place of the scene, given relative to the centre.
 fn sunlight(at: vec3f) -> vec3f {
-    let place = sun_place(at);
-    var light = vec3f(1.0);
+    let place = light_place(environment.lights[0], at);
     if environment.caustic_texels > 0u {
-        light = caustic_sunlight(place);
-    } else if environment.shadow_texels > 0u {
-        light = liquid_sunlight(place);
+        return caustic_share(place) * scene_share(place);
     }
-    return light * scene_sunlight(place);
+    return liquid_share(place) * scene_share(place);
 }
 
-// For a place on the liquid's surface, given relative to the eye: what lies between it and the sun, but for the bumps of the
+// A lamp's light at a place, given relative to the centre.
+fn lamplight(lamp: u32, at: vec3f) -> vec3f {
+    let light = environment.lights[lamp];
+    let place = light_place(light, at);
+    return light.color.rgb * liquid_share(place) * scene_share(place);
+}
+
+// What the lamps shed on a surface of the scene, as the sun sheds its light on a white one. Lamps are lights 1 and on.
+fn lamps_on(normal: vec3f, at: vec3f) -> vec3f {
+    var light = vec3f(0.0);
+    for (var lamp = 1u; lamp < environment.light_count; lamp++) {
+        light += 0.55 * max(dot(normal, environment.lights[lamp].toward), 0.0) * lamplight(lamp, at);
+    }
+    return light;
+}
+
+// For a place on the liquid's surface, given relative to the eye: the sun's light that arrives from beyond the bumps of the
 // surface itself.
 fn sunlight_on_liquid(from_eye: vec3f) -> vec3f {
-    let at = environment.eye_from_center + from_eye + 2.0 * environment.shadow_radius * environment.sun;
-    let place = sun_place(at);
-    var light = vec3f(1.0);
-    if environment.shadow_texels > 0u {
-        light = liquid_sunlight(place);
-    }
-    return light * scene_sunlight(place);
+    let place = light_place(environment.lights[0], above_liquid(from_eye, environment.sun));
+    return liquid_share(place) * scene_share(place);
+}
+
+// And a lamp's.
+fn lamplight_on_liquid(lamp: u32, from_eye: vec3f) -> vec3f {
+    return lamplight(lamp, above_liquid(from_eye, environment.lights[lamp].toward));
+}
+
+// 2 r nearer to a light than a place on the liquid, relative to the centre.
+fn above_liquid(from_eye: vec3f, toward: vec3f) -> vec3f {
+    return environment.eye_from_center + from_eye + 2.0 * environment.shadow_radius * toward;
 }
 
 // Light from a direction, seen from a place given relative to the eye (world space). `spread` is the width of the view
@@ -278,6 +318,6 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let width = spread * distance / environment.tile;
     let stone = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.52, 0.51, 0.495), checker(tiles, vec2f(width, width / descent)));
     let around = select(vec3f(0.45), map_light(environment.up, 1.0), environment.map_levels > 0u);
-    let light = around + 0.55 * environment.sun_strength * sunlight(at);
+    let light = around + 0.55 * environment.sun_strength * sunlight(at) + lamps_on(environment.up, at);
     return mix(behind, stone * light, exp(-environment.tile_fade * dot(tiles, tiles)));
 }

@@ -3,7 +3,7 @@
 use crate::bodies::BodyUniform;
 use crate::caustics::LensUniform;
 use crate::display::DisplayUniform;
-use crate::environment::EnvironmentUniform;
+use crate::environment::{EnvironmentUniform, LightUniform};
 use crate::passes::{DetailUniform, OpticsUniform};
 use crate::renderer::SettingsUniform;
 use crate::view::ViewUniform;
@@ -94,6 +94,11 @@ fn settings() {
 }
 
 #[test]
+fn light() {
+    assert_same(rust_layout!(LightUniform { toward, first, east, padding, color }), wgsl_layout(SHADE, "Light"));
+}
+
+#[test]
 fn lens() {
     let rust = rust_layout!(LensUniform { floor, shadow_texels, scene_texels, first, sun_tangent });
     assert_same(rust, wgsl_layout(LENS, "Lens"));
@@ -151,20 +156,21 @@ fn environment() {
         tile_fade,
         eye_from_center,
         extent,
-        sun_east,
         shadow_texels,
-        sun_north,
-        shadow_radius,
+        scene_texels,
+        light_count,
+        sun_tangent,
         shadow_absorption,
         sun_strength,
         map_east,
         map_levels,
         map_middle,
         map_alpha,
-        sun_tangent,
-        scene_texels,
+        shadow_radius,
         caustic_texels,
         caustic_first,
+        padding,
+        lights,
     });
     assert_same(rust, wgsl_layout(SHADE, "Environment"));
 }

@@ -30,7 +30,8 @@ fn landing_depth(px: vec2f) -> f32 {
     let size = i32(lens.scene_texels);
     let texel = clamp(vec2i(floor(px / vec2f(view.size) * f32(size))), vec2i(0), vec2i(size - 1));
     let fluid = lens.shadow_texels * lens.shadow_texels * SHADOW_WORDS;
-    return min(depth, mix(view.far, view.near, shadow[fluid + u32(texel.y * size + texel.x)]));
+    let nearness = shadow[fluid + u32(texel.y * size + texel.x)];
+    return select(depth, min(depth, mix(view.far, view.near, nearness)), nearness > 0.0);
 }
 
 // A point of a disc, evenly spread (Vogel 1979), turned by an angle that differs from pixel to pixel: grain, not steps.

@@ -30,7 +30,7 @@ pub use backdrop::{Backdrop, BackdropFrame};
 pub use bodies::{Bodies, Body, Layer, Look, Material, Mesh, PartSlices, TextureSlices};
 pub use detail::{Detail, Foam};
 pub use display::{Display, ToneMap};
-pub use environment::Environment;
+pub use environment::{Environment, Lamp, MOST_LAMPS};
 pub use environment_map::EnvironmentMap;
 pub use error::Error;
 pub use framing::{Bounds, Framing};

@@ -257,8 +257,8 @@ impl Renderer {
 
     /// Records the shadow that the fluid casts, and that of the scene: on the fluid, and on what takes
     /// [`Self::floor_shadow`]. Call it before the frame's [`crate::Backdrop`] and [`crate::Bodies`] are drawn, and before
-    /// [`Self::prepare`]. `scene`: what the sun sees of the scene by [`Environment::sun_view`], a `Depth32Float` texture of
-    /// [`crate::SCENE_SHADOW_TEXELS`] squared that can be copied from; None: the scene casts no shadow.
+    /// [`Self::prepare`]. `scene`: what the lights see of the scene, a `Depth32Float` texture of [`crate::SCENE_SHADOW_TEXELS`] squared with
+    /// a layer for each of [`Environment::light_views`], that can be copied from; None: the scene casts no shadow.
     ///
     /// # Errors
     /// Caustics that the device cannot hold.
@@ -276,6 +276,7 @@ impl Renderer {
         environment: &Environment,
         optics: &Optics,
     ) -> Result<(), Error> {
+        self.shadow.reserve(device, environment);
         let recorder =
             &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
         self.shadow.encode(recorder, queue, particles, environment, scene);

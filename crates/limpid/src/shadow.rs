@@ -1,12 +1,12 @@
-//! What the sun sees: the fluid's shadow on the scene and on itself (`shadow.wgsl`), and the scene's on both.
+//! What the sun and the lamps see: the fluid's shadow on the scene and on itself (`shadow.wgsl`), and the scene's on both.
 
 use crate::caustics::CAUSTIC_TEXELS;
-use crate::environment::ShadowTint;
+use crate::environment::{MOST_LIGHTS, ShadowTint};
 use crate::gpu::{Grid, Kernel, Recorder, Slot, bind, storage_buffer, uniform_buffer};
 use crate::passes::{ellipsoids_constant, module};
 use crate::renderer::{SettingsUniform, THICKNESS_COUNTS};
 use crate::view::ViewUniform;
-use crate::{Environment, Particles, Scale};
+use crate::{Environment, Particles, Scale, View};
 use bytemuck::Zeroable;
 
 /// Most texels along the edge of the fluid's map.
@@ -29,16 +29,33 @@ const WORDS: u64 = SLICES + 2;
 /// Drawn radius over particle radius.
 const SPLAT_SCALE: f32 = 3.0;
 
-pub(crate) struct Shadow {
-    frame_group: wgpu::BindGroup,
+/// Words of the map for each light.
+pub(crate) const LIGHT_WORDS: u32 = CAUSTICS_FIRST_WORD + CAUSTIC_WORDS as u32;
+
+/// One light's view.
+struct LightFrame {
+    group: wgpu::BindGroup,
     view: wgpu::Buffer,
     settings: wgpu::Buffer,
+}
+
+impl LightFrame {
+    fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let view = uniform_buffer::<ViewUniform>(device, "light's view");
+        let settings = uniform_buffer::<SettingsUniform>(device, "light's settings");
+        let group = bind(device, frame, &[view.as_entire_binding(), settings.as_entire_binding()]);
+        Self { group, view, settings }
+    }
+}
+
+pub(crate) struct Shadow {
+    lights: [LightFrame; MOST_LIGHTS],
     find_ends: Kernel,
     add_liquid: Kernel,
     resolve: Kernel,
     ends: wgpu::Buffer,
     sums: wgpu::Buffer,
-    /// The fluid's map, then the depth buffer of the scene; the caustics in a place of their own.
+    /// Of each light the fluid's map, then the depth buffer of the scene; the sun's caustics in a place of their own.
     map: wgpu::Buffer,
 }
 
@@ -65,18 +82,14 @@ impl Shadow {
             Kernel::with_constants(device, frame, &splat, entry_point, slots, &[ellipsoids_constant(false)])
         };
         let particles = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
-        let view = uniform_buffer::<ViewUniform>(device, "sun view");
-        let settings = uniform_buffer::<SettingsUniform>(device, "sun settings");
         Self {
-            frame_group: bind(device, frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
-            view,
-            settings,
+            lights: std::array::from_fn(|_| LightFrame::new(device, frame)),
             find_ends: splat("find_ends", &particles),
             add_liquid: splat("add_liquid", &particles),
             resolve: Kernel::new(device, frame, &resolve, "resolve", &[Slot::Read, Slot::Read, Slot::Write]),
             ends: storage_buffer(device, "shadow ends", 8 * TEXELS),
             sums: storage_buffer(device, "shadow sums", 4 * SLICES * TEXELS),
-            map: storage_buffer(device, "shadow", 4 * (u64::from(CAUSTICS_FIRST_WORD) + CAUSTIC_WORDS)),
+            map: light_maps(device, 1),
         }
     }
 
@@ -85,12 +98,20 @@ impl Shadow {
         &self.map
     }
 
-    /// What the map's recording binds.
+    /// What recordings into the sun's map bind.
     pub fn frame_group(&self) -> &wgpu::BindGroup {
-        &self.frame_group
+        &self.lights[0].group
     }
 
-    /// Records the map.
+    /// Makes room for the maps of all lights.
+    pub fn reserve(&mut self, device: &wgpu::Device, environment: &Environment) {
+        let lights = environment.light_views().count() as u32;
+        if self.map.size() < light_bytes(lights) {
+            self.map = light_maps(device, lights);
+        }
+    }
+
+    /// Records the maps of all lights, for which there is room. `scene` has a layer for each.
     pub fn encode(
         &self,
         recorder: &mut Recorder<'_>,
@@ -99,8 +120,25 @@ impl Shadow {
         environment: &Environment,
         scene: Option<&wgpu::Texture>,
     ) {
+        for (light, view) in (0..).zip(environment.light_views()) {
+            self.encode_light(recorder, queue, particles, environment, (light, &view));
+            if let Some(scene) = scene {
+                self.copy_scene(recorder, shadow_texels(environment, particles.reference_radius), light, scene);
+            }
+        }
+    }
+
+    /// The fluid's map of one light.
+    fn encode_light(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &wgpu::Queue,
+        particles: &Particles,
+        environment: &Environment,
+        (light, view): (u32, &View),
+    ) {
         let size = [shadow_texels(environment, particles.reference_radius); 2];
-        let view = environment.sun_view().uniform(size, Scale::Full, particles.origin);
+        let view = view.uniform(size, Scale::Full, particles.origin);
         let settings = SettingsUniform {
             radius: particles.reference_radius,
             splat_scale: SPLAT_SCALE,
@@ -108,8 +146,10 @@ impl Shadow {
             fluid_scale: 1.0,
             ..SettingsUniform::zeroed()
         };
-        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
-        queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
+        let frame = &self.lights[light as usize];
+        queue.write_buffer(&frame.view, 0, bytemuck::bytes_of(&view));
+        queue.write_buffer(&frame.settings, 0, bytemuck::bytes_of(&settings));
+        let recorder = &mut recorder.in_frame(&frame.group);
         recorder.clear(&self.ends);
         recorder.clear(&self.sums);
         for kernel in [&self.find_ends, &self.add_liquid] {
@@ -120,21 +160,39 @@ impl Shadow {
                 recorder.run("shadow", kernel, &resources, &Grid::Items(chunk.count, 64));
             }
         }
-        let resources = [self.ends.as_entire_binding(), self.sums.as_entire_binding(), self.map.as_entire_binding()];
+        let map = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.map,
+            offset: light_bytes(light),
+            size: wgpu::BufferSize::new(light_bytes(1)),
+        });
+        let resources = [self.ends.as_entire_binding(), self.sums.as_entire_binding(), map];
         recorder.run("shadow", &self.resolve, &resources, &Grid::Image(size));
-        if let Some(scene) = scene {
-            let layout = wgpu::TexelCopyBufferLayout {
-                offset: 4 * WORDS * u64::from(size[0]) * u64::from(size[1]),
-                bytes_per_row: Some(4 * SCENE_SHADOW_TEXELS),
-                rows_per_image: None,
-            };
-            let to = wgpu::TexelCopyBufferInfo { buffer: &self.map, layout };
-            recorder.encoder.copy_texture_to_buffer(scene.as_image_copy(), to, scene.size());
-        }
+    }
+
+    /// Puts what a light sees of the scene after its map of the fluid.
+    fn copy_scene(&self, recorder: &mut Recorder<'_>, texels: u32, light: u32, scene: &wgpu::Texture) {
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: light_bytes(light) + 4 * WORDS * u64::from(texels) * u64::from(texels),
+            bytes_per_row: Some(4 * SCENE_SHADOW_TEXELS),
+            rows_per_image: None,
+        };
+        let from =
+            wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: 0, z: light }, ..scene.as_image_copy() };
+        let size = wgpu::Extent3d { depth_or_array_layers: 1, ..scene.size() };
+        let to = wgpu::TexelCopyBufferInfo { buffer: &self.map, layout };
+        recorder.encoder.copy_texture_to_buffer(from, to, size);
     }
 }
 
-/// What keeps the sun's light from places, as [`crate::Backdrop`] and [`crate::Bodies`] take it.
+fn light_bytes(lights: u32) -> u64 {
+    4 * u64::from(LIGHT_WORDS) * u64::from(lights)
+}
+
+fn light_maps(device: &wgpu::Device, lights: u32) -> wgpu::Buffer {
+    storage_buffer(device, "shadow", light_bytes(lights))
+}
+
+/// What keeps the lights from places, as [`crate::Backdrop`] and [`crate::Bodies`] take it.
 pub struct FloorShadow<'a> {
     pub(crate) map: &'a wgpu::Buffer,
     pub(crate) tint: ShadowTint,

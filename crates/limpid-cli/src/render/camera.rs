@@ -6,7 +6,7 @@ use super::props::Props;
 use super::survey::Survey;
 use crate::failure::Failure;
 use glam::{DVec3, dvec3};
-use limpid::{Body, Bounds, Environment, Framing, View};
+use limpid::{Body, Bounds, Environment, Framing, Lamp, MOST_LAMPS, View};
 use limpid_headless::Shot;
 
 /// The near plane in particle radii: closer than this to the eye nothing can be told apart. Depths are kept linear and
@@ -55,6 +55,7 @@ impl Stage {
             sun_strength: options.sun(),
             sun_size: options.sun_size(),
             caustics: options.caustics(),
+            lamps: lamps(options)?,
             floor: around.floor.filter(|_| options.has_floor()),
             ..around
         };
@@ -82,6 +83,25 @@ fn sun(options: &Options) -> Result<Option<DVec3>, Failure> {
     let Some(direction) = options.sun_direction else { return Ok(None) };
     let toward = DVec3::from_array(direction).try_normalize();
     toward.map(Some).ok_or_else(|| Failure::usage("--sun-direction has no length: give a direction, like 0,1,0"))
+}
+
+/// The lights beside the sun.
+fn lamps(options: &Options) -> Result<[Option<Lamp>; MOST_LAMPS], Failure> {
+    let given = options.light.as_deref().unwrap_or_default();
+    if given.len() > MOST_LAMPS {
+        return Err(Failure::usage(format!("--light is given {} times: {MOST_LAMPS} are the most", given.len())));
+    }
+    let mut lamps = [None; MOST_LAMPS];
+    for ([x, y, z, red, green, blue], lamp) in given.iter().copied().zip(&mut lamps) {
+        let toward = DVec3::new(x, y, z).try_normalize();
+        let toward = toward.ok_or_else(|| Failure::usage("--light has no direction: begin with one, like 0,1,0"))?;
+        let color = [red, green, blue].map(|value| value as f32);
+        if color.iter().any(|value| *value < 0.0) {
+            return Err(Failure::usage("--light has a colour below 0: end with one like 1,0.8,0.5"));
+        }
+        *lamp = Some(Lamp { toward, color });
+    }
+    Ok(lamps)
 }
 
 fn aspect(options: &Options) -> f64 {

@@ -19,6 +19,7 @@ const RANGES: &[(&str, Range)] = &[
     ("camera-eye", Range::Finite),
     ("camera-target", Range::Finite),
     ("camera-up", Range::Finite),
+    ("light", Range::Finite),
     ("sun-size", Range::Within(0.0, 20.0)),
     ("fov", Range::Within(0.1, 179.0)),
     ("ortho", Range::Within(1e-12, 1e12)),

@@ -194,6 +194,11 @@ pub struct Options {
     /// Angle that the sun's disc spans, in degrees: how soft the shadows of bodies are
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, help_heading = "Scene")]
     pub sun_size: Option<f64>,
+    /// A light beside the sun, as far off: where it is seen from the fluid, a direction in world space, and its linear colour,
+    /// of which 1 is as bright as the sun; may be given several times
+    #[arg(long, value_name = "X,Y,Z,R,G,B", value_parser = numbers::<6>, action = ArgAction::Append,
+          allow_hyphen_values = true, help_heading = "Scene")]
+    pub light: Option<Vec<[f64; 6]>>,
     /// Whether the liquid's surface bends the sun's light, and gathers it on floor and bodies
     #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Scene")]
     pub caustics: Option<Named<bool>>,
@@ -569,7 +574,12 @@ fn widen(value: f32) -> f64 {
 
 /// Three numbers between commas.
 fn triple(text: &str) -> Result<[f64; 3], String> {
+    numbers(text).map_err(|problem| format!("{problem}, like 1,2.5,-3"))
+}
+
+/// N numbers between commas.
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
-    let numbers = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
-    numbers.ok_or_else(|| "must be three numbers between commas, like 1,2.5,-3".into())
+    let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| format!("must be {N} numbers between commas"))
 }

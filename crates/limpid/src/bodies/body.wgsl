@@ -69,26 +69,29 @@ fn light_around(normal: vec3f) -> vec3f {
     return select(procedural, map_light(normal, 1.0), environment.map_levels > 0u);
 }
 
+// Just outside a surface, so that it does not shade itself; relative to the centre.
+fn outside(normal: vec3f, from_eye: vec3f) -> vec3f {
+    return environment.eye_from_center + from_eye + 0.004 * environment.extent * normal;
+}
+
 // Irradiance of the sun over pi: with that from around, 1 on a floor.
 fn sun_on(normal: vec3f, from_eye: vec3f) -> vec3f {
     let height = max(dot(environment.sun, environment.up), 0.2);
     let facing_sun = environment.sun_strength * max(dot(normal, environment.sun), 0.0) / height;
-    // From just outside, so that a surface does not shade itself.
-    let outside = 0.004 * environment.extent * normal;
-    return 0.55 * facing_sun * sunlight(environment.eye_from_center + from_eye + outside);
+    return 0.55 * facing_sun * sunlight(outside(normal, from_eye));
 }
 
-// GGX (Walter et al. 2007) with Smith's shadowing, of the sun: over its irradiance over pi.
-fn sun_mirrored(normal: vec3f, toward: vec3f, roughness: f32, f0: vec3f) -> vec3f {
-    let middle = normalize(environment.sun - toward);
+// GGX (Walter et al. 2007) with Smith's shadowing, of a light in a direction: over its irradiance over pi.
+fn mirrored(light: vec3f, normal: vec3f, toward: vec3f, roughness: f32, f0: vec3f) -> vec3f {
+    let middle = normalize(light - toward);
     let alpha = max(roughness * roughness, 0.01);
     let along = max(dot(normal, middle), 0.0);
     let view_cosine = max(-dot(normal, toward), 1e-3);
-    let sun_cosine = max(dot(normal, environment.sun), 1e-3);
+    let light_cosine = max(dot(normal, light), 1e-3);
     let lobe = along * along * (alpha * alpha - 1.0) + 1.0;
     let distribution = alpha * alpha / (PI * lobe * lobe);
     let k = 0.5 * alpha;
-    let hidden = (view_cosine * (1.0 - k) + k) * (sun_cosine * (1.0 - k) + k);
+    let hidden = (view_cosine * (1.0 - k) + k) * (light_cosine * (1.0 - k) + k);
     let away = 1.0 - max(dot(middle, -toward), 0.0);
     let fresnel = f0 + (1.0 - f0) * pow(away, 5.0);
     return fresnel * min(distribution / (4.0 * hidden), 8.0) * PI;
@@ -108,11 +111,18 @@ fn opaque(corner: Corner) -> @location(0) vec4f {
     }
     let f0 = mix(vec3f(DIELECTRIC), base.rgb, metallic);
     let sun = sun_on(normal, corner.from_eye);
-    let diffuse = base.rgb * (1.0 - metallic) * (light_around(normal) + sun);
+    let at = outside(normal, corner.from_eye);
+    let diffuse = base.rgb * (1.0 - metallic) * (light_around(normal) + sun + lamps_on(normal, at));
     let away = 1.0 - max(-dot(normal, toward), 0.0);
-    let mirrored = f0 + (max(vec3f(1.0 - roughness), f0) - f0) * pow(away, 5.0);
+    let from_around = f0 + (max(vec3f(1.0 - roughness), f0) - f0) * pow(away, 5.0);
     // Rough surfaces mirror the mean of their surroundings.
     let sharp = surroundings(corner.from_eye, reflect(toward, normal), roughness);
     let around = mix(sharp, light_around(reflect(toward, normal)), roughness);
-    return vec4f(diffuse + mirrored * around + sun_mirrored(normal, toward, roughness, f0) * sun, 1.0);
+    var glints = mirrored(environment.sun, normal, toward, roughness, f0) * sun;
+    for (var lamp = 1u; lamp < environment.light_count; lamp++) {
+        let direction = environment.lights[lamp].toward;
+        let shed = 0.55 * max(dot(normal, direction), 0.0) * lamplight(lamp, at);
+        glints += mirrored(direction, normal, toward, roughness, f0) * shed;
+    }
+    return vec4f(diffuse + from_around * around + glints, 1.0);
 }

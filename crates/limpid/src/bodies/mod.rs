@@ -78,7 +78,8 @@ pub struct Bodies {
     rim: wgpu::RenderPipeline,
     caster: wgpu::RenderPipeline,
     /// What the sun sees.
-    from_sun: wgpu::Texture,
+    /// A layer for each light, as many as were asked for so far.
+    from_lights: wgpu::Texture,
     frame_group: wgpu::BindGroup,
     light_layout: wgpu::BindGroupLayout,
     body_layout: wgpu::BindGroupLayout,
@@ -115,20 +116,7 @@ impl Bodies {
             near_pane: pipeline("near_pane", over),
             rim: pipeline("rim", over),
             caster: caster_pipeline(device, &layout, &module),
-            from_sun: device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("bodies from the sun"),
-                size: wgpu::Extent3d {
-                    width: SCENE_SHADOW_TEXELS,
-                    height: SCENE_SHADOW_TEXELS,
-                    depth_or_array_layers: 1,
-                },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Depth32Float,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[],
-            }),
+            from_lights: shadow_texture(device, 1),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             light_layout,
             body_layout,
@@ -146,20 +134,46 @@ impl Bodies {
         }
     }
 
-    /// Records what the sun sees of the opaque bodies, for [`crate::Renderer::cast_shadow`]; None: there are none.
-    pub fn from_sun(
-        &self,
+    /// Records what the lights see of the opaque bodies, for [`crate::Renderer::cast_shadow`]; None: there are none.
+    pub fn from_lights(
+        &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         environment: &Environment,
         bodies: &[Body<'_>],
     ) -> Option<&wgpu::Texture> {
-        let mut opaque = bodies.iter().filter(|body| body.look != Look::Glass).peekable();
-        opaque.peek()?;
-        let depth = self.from_sun.create_view(&Default::default());
+        let opaque: Vec<&Body<'_>> = bodies.iter().filter(|body| body.look != Look::Glass).collect();
+        if opaque.is_empty() {
+            return None;
+        }
+        let lights = environment.light_views().count() as u32;
+        if self.from_lights.depth_or_array_layers() < lights {
+            self.from_lights = shadow_texture(device, lights);
+        }
+        for (layer, view) in (0..).zip(environment.light_views()) {
+            self.draw_depth(device, queue, encoder, &opaque, (layer, &view));
+        }
+        Some(&self.from_lights)
+    }
+
+    /// Draws the depth of bodies from a light into its layer.
+    fn draw_depth(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        bodies: &[&Body<'_>],
+        (layer, view): (u32, &View),
+    ) {
+        let depth = self.from_lights.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("bodies from the sun"),
+            label: Some("bodies from a light"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
@@ -175,15 +189,12 @@ impl Bodies {
             wgpu::BindingResource::TextureView(&self.blank),
         ];
         pass.set_bind_group(1, &bind(device, &self.light_layout, &light), &[]);
-        let view = environment.sun_view();
-        for body in opaque {
+        for body in bodies {
             for part in &body.mesh.parts {
-                let uniform = body.uniform(&view, part);
+                let uniform = body.uniform(view, part);
                 self.triangles(device, queue, &mut pass, &uniform, &part.textures, (&part.vertices, part.count));
             }
         }
-        drop(pass);
-        Some(&self.from_sun)
     }
 
     /// Draws one layer into the host's pass. Uniforms are written to the queue at once: one view per submission.
@@ -305,6 +316,20 @@ impl Body<'_> {
             padding: 0.0,
         }
     }
+}
+
+/// Depth of the scene from so many lights.
+fn shadow_texture(device: &wgpu::Device, lights: u32) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("bodies from the lights"),
+        size: wgpu::Extent3d { width: SCENE_SHADOW_TEXELS, height: SCENE_SHADOW_TEXELS, depth_or_array_layers: lights },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Depth32Float,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
 }
 
 fn body_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {

@@ -22,6 +22,11 @@ pub(crate) struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
+    /// The same recording for kernels that see another frame: another camera, other settings.
+    pub fn in_frame<'b>(&'b mut self, frame_group: &'b wgpu::BindGroup) -> Recorder<'b> {
+        Recorder { device: self.device, encoder: self.encoder, frame_group, profiler: self.profiler.as_deref_mut() }
+    }
+
     /// Records one kernel as a compute pass of its own, so that it can be timed.
     pub fn run(&mut self, name: &str, kernel: &Kernel, resources: &[wgpu::BindingResource<'_>], grid: &Grid<'_>) {
         let group = bind(self.device, &kernel.layout, resources);

@@ -86,13 +86,31 @@ fn surface_light(sight: Sight, reflectance: vec3f, sunlight: vec3f) -> vec3f {
     return reflectance * around + select(glint, vec3f(0.0), sight.is_submerged);
 }
 
+// What the lamps add: their mirror images, and light that comes back out of the body, `share` of what falls in.
+fn lamps_light(sight: Sight, share: vec3f) -> vec3f {
+    let rotation = world_from_view();
+    let normal = rotation * sight.normal;
+    let toward = rotation * sight.toward;
+    let glint = select(GLINT * optics.specular, 0.0, sight.is_submerged);
+    var light = vec3f(0.0);
+    for (var lamp = 1u; lamp < environment.light_count; lamp++) {
+        let direction = environment.lights[lamp].toward;
+        let highlight = pow(max(dot(normal, normalize(direction - toward)), 0.0), optics.shininess);
+        let shed = lamplight_on_liquid(lamp, rotation * sight.position);
+        light += shed * (glint * highlight + share * light_into(normal, direction));
+    }
+    return light;
+}
+
 // Linear premultiplied colour; where the host's scene is not opaque, alpha is what does not come from behind.
 fn color_of(sight: Sight) -> vec4f {
     let reflectance = select(reflectance_at(-dot(sight.normal, sight.toward)), vec3f(0.0), sight.is_submerged);
     let through = body_transmittance(sight.thickness);
     let sunlight = sunlight_on_liquid(world_from_view() * sight.position);
     let lit = light_on(world_from_view() * sight.normal, sunlight);
-    let own = surface_light(sight, reflectance, sunlight) + (1.0 - reflectance) * body_light(through, lit);
+    let scattered = (1.0 - reflectance) * (1.0 - through) * scattered_color();
+    let lamps = lamps_light(sight, scattered);
+    let own = surface_light(sight, reflectance, sunlight) + (1.0 - reflectance) * body_light(through, lit) + lamps;
     let transmitted = (1.0 - reflectance) * through;
     if settings.background == BACKGROUND_NONE {
         return vec4f(own, 1.0 - dot(transmitted, vec3f(1.0 / 3.0)));
