@@ -2,9 +2,10 @@
 
 use crate::failure::Failure;
 use crate::info::InfoArguments;
-use crate::render::{RenderArguments, describe_options};
+use crate::render::RenderArguments;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use limpid_shot::config::describe_options;
 use std::ffi::OsString;
 
 /// Pictures of a liquid from the particle files of fluid simulations.

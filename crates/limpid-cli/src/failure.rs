@@ -74,9 +74,14 @@ impl From<serde_json::Error> for Failure {
     }
 }
 
-impl From<toml::ser::Error> for Failure {
-    fn from(error: toml::ser::Error) -> Self {
-        Self::Text(error.to_string())
+impl From<limpid_shot::Error> for Failure {
+    fn from(error: limpid_shot::Error) -> Self {
+        match error {
+            limpid_shot::Error::Usage(message) => Self::Usage(message),
+            limpid_shot::Error::Read(error) => Self::Read(error),
+            limpid_shot::Error::Mesh(error) => Self::Mesh(error),
+            limpid_shot::Error::Text(message) => Self::Text(message),
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use crate::console;
 use crate::failure::Failure;
-use crate::number::{short, significant};
 use clap::Args;
 use limpid_io::{ParticleSet, Radius, RadiusSource, ReadError};
+use limpid_shot::{short, significant};
 use serde::Serialize;
 use std::path::Path;
 

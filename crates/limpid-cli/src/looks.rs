@@ -2,7 +2,7 @@
 
 use crate::console;
 use crate::failure::Failure;
-use crate::render::look;
+use limpid_shot::look;
 
 /// Prints the names, each with its file's first line; or one look's file.
 pub fn run(name: Option<&str>) -> Result<(), Failure> {

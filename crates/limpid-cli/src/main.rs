@@ -7,7 +7,6 @@ mod environment;
 mod failure;
 mod info;
 mod looks;
-mod number;
 mod quiet_driver;
 mod render;
 mod write;

@@ -1,36 +1,20 @@
 //! `limpid render`: from particle files to pictures.
 
-mod camera;
-mod choice;
-mod config;
-mod frame;
-mod limits;
-mod living;
-pub mod look;
-mod options;
 mod outputs;
 mod progress;
-mod props;
-mod size;
-mod survey;
 mod timings;
-
-pub use config::describe_options;
 
 use crate::failure::Failure;
 use crate::write::{write_aov, write_layers, write_picture};
 use crate::{console, environment};
-use camera::Stage;
 use clap::Args;
-use frame::FrameParticles;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
-use living::Living;
-use options::Options;
+use limpid_io::Frame;
+use limpid_shot::{FrameParticles, Living, Options, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
-use props::Props;
 use std::path::{Path, PathBuf};
-use survey::Survey;
+use std::sync::Arc;
 
 /// The command line of `limpid render`.
 #[derive(Args, Debug)]
@@ -64,13 +48,18 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         offscreen.set_environment(Some(&map)).map_err(bad)?;
     }
 
-    let survey = Survey::of(&sequence.frames, &options)?;
+    let mut survey = survey(&sequence.frames, &options)?;
+    // A single frame is not read twice.
+    let mut single = survey.take_largest().filter(|_| sequence.frames.len() == 1);
     let stage = Stage::of(&options, &survey, &props)?;
-    let meshes = props.upload(offscreen.gpu());
+    let meshes = props.upload(&offscreen.gpu().device, &offscreen.gpu().queue);
     let mut living = Living::new(&options);
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
     for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
-        let set = survey.read(&frame.path)?;
+        let set = match single.take() {
+            Some(set) => set,
+            None => Arc::new(limpid_io::read(&frame.path)?),
+        };
         let mut particles = FrameParticles::of(set, &survey)?;
         let remarks = living.advance(frame, &mut particles);
         let bodies = props.at(frame, &meshes);
@@ -108,6 +97,19 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     }
     progress.finish();
     if !quiet { outputs.report() } else { Ok(()) }
+}
+
+/// Looks through all frames.
+fn survey(frames: &[Frame], options: &Options) -> Result<Survey, Failure> {
+    let mut survey = Survey::default();
+    let progress = Progress::new("looking through", frames.len(), options.quiet());
+    for frame in frames {
+        survey.include(&Arc::new(limpid_io::read(&frame.path)?), options);
+        progress.advance();
+    }
+    progress.finish();
+    survey.settle(options)?;
+    Ok(survey)
 }
 
 /// What a frame's files show.

@@ -1,11 +1,11 @@
 //! Which files will be written, found and checked before any work is done.
 
-use super::options::Options;
 use crate::console;
 use crate::failure::Failure;
 use crate::write::{AovFormat, check_writable};
 use limpid_headless::Aov;
 use limpid_io::Frame;
+use limpid_shot::Options;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -1,19 +1,18 @@
 //! What must be known of all frames before the first is drawn: camera, floor and radius are the same for all of them.
 
-use super::options::Options;
-use super::progress::Progress;
-use crate::failure::Failure;
+use crate::Error;
 use crate::number::{short, significant};
+use crate::options::Options;
 use glam::DVec3;
 use limpid::Bounds;
-use limpid_io::{Frame, ParticleSet, Radius, RadiusSource};
-use std::cell::Cell;
-use std::path::Path;
+use limpid_io::{ParticleSet, Radius, RadiusSource};
+use std::sync::Arc;
 
 /// r of a scene without particles, where nothing but the scene's own scale depends on it.
 const EMPTY_RADIUS: f64 = 0.1;
 
-/// The frames together.
+/// The frames together: all of them [`Survey::include`]d, then [`Survey::settle`]d.
+#[derive(Default)]
 pub struct Survey {
     /// Box around the particle centres of all frames but for a few strays; None without particles.
     pub bounds: Option<Bounds>,
@@ -23,43 +22,37 @@ pub struct Survey {
     pub warnings: Vec<String>,
     /// Radius, from the frame with the most particles, the best to estimate one from; None without particles.
     radius: Option<Radius>,
-    /// A single frame, so that it is not read twice.
-    single: Cell<Option<ParticleSet>>,
+    /// That frame.
+    largest: Option<Arc<ParticleSet>>,
 }
 
 impl Survey {
-    /// Reads all frames.
-    pub fn of(frames: &[Frame], options: &Options) -> Result<Self, Failure> {
-        let (mut bounds, mut extent): (Option<Bounds>, Option<Bounds>) = (None, None);
-        let mut largest: Option<ParticleSet> = None;
-        let mut warnings = Vec::new();
-        let progress = Progress::new("looking through", frames.len(), options.quiet());
-        for frame in frames {
-            let set = limpid_io::read(&frame.path)?;
-            warnings.extend(oddities(&set, options));
-            bounds = union(bounds, Bounds::robust(world_positions(&set)));
-            extent = union(extent, extent_of(&set));
-            if largest.as_ref().is_none_or(|largest| set.len() > largest.len()) {
-                largest = Some(set);
-            }
-            progress.advance();
+    /// Takes a frame into account.
+    pub fn include(&mut self, set: &Arc<ParticleSet>, options: &Options) {
+        self.warnings.extend(oddities(set, options));
+        self.bounds = union(self.bounds, Bounds::robust(world_positions(set)));
+        self.extent = union(self.extent, extent_of(set));
+        if self.largest.as_ref().is_none_or(|largest| set.len() > largest.len()) {
+            self.largest = Some(Arc::clone(set));
         }
-        progress.finish();
-        let occupied = largest.as_ref().filter(|set| !set.is_empty());
-        let radius = occupied.map(|set| set.radius(options.radius)).transpose()?;
-        if let (Some(set), Some(value), Some(extent)) = (occupied, options.radius, extent) {
-            check_radius(value, extent, set)?;
-        }
-        let single = Cell::new(largest.filter(|_| frames.len() == 1));
-        Ok(Self { bounds, extent, warnings, radius, single })
     }
 
-    /// The particles of a frame.
-    pub fn read(&self, path: &Path) -> Result<ParticleSet, Failure> {
-        match self.single.take() {
-            Some(set) => Ok(set),
-            None => Ok(limpid_io::read(path)?),
+    /// Decides on the radius by the frames so far.
+    ///
+    /// # Errors
+    /// There is no radius, or one that cannot belong to these particles.
+    pub fn settle(&mut self, options: &Options) -> Result<(), Error> {
+        let occupied = self.largest.as_ref().filter(|set| !set.is_empty());
+        self.radius = occupied.map(|set| set.radius(options.radius)).transpose()?;
+        if let (Some(set), Some(value), Some(extent)) = (occupied, options.radius, self.extent) {
+            check_radius(value, extent, set)?;
         }
+        Ok(())
+    }
+
+    /// Hands over the frame with the most particles, so that its memory can go, or it need not be read again.
+    pub fn take_largest(&mut self) -> Option<Arc<ParticleSet>> {
+        self.largest.take()
     }
 
     /// The r of the scene, world units.
@@ -95,13 +88,13 @@ fn oddities(set: &ParticleSet, options: &Options) -> Vec<String> {
 }
 
 /// Refuses a radius that cannot belong to these particles: most likely it is in another unit.
-fn check_radius(radius_world: f64, extent: Bounds, set: &ParticleSet) -> Result<(), Failure> {
+fn check_radius(radius_world: f64, extent: Bounds, set: &ParticleSet) -> Result<(), Error> {
     let diagonal = (extent.max - extent.min).length();
     if diagonal == 0.0 || radius_world <= diagonal {
         return Ok(());
     }
     let estimate = set.estimate_spacing().map(|spacing| format!("; {} would fit", short(significant(0.5 * spacing))));
-    Err(Failure::usage(format!(
+    Err(Error::usage(format!(
         "--radius is {}, but all particles lie within {}{}: give it in the files' unit",
         short(radius_world),
         short(significant(diagonal)),

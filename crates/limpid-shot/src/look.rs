@@ -1,7 +1,7 @@
 //! Looks: what a liquid is made of, by name or from a file. The files in `looks/` are the only place of their numbers.
 
-use super::config;
-use super::options::Options;
+use crate::config;
+use crate::options::Options;
 use limpid::Optics;
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use toml::{Table, Value};
 
 macro_rules! named {
     ($($name:literal),+) => {
-        &[$(($name, include_str!(concat!("../../../../looks/", $name, ".toml")))),+]
+        &[$(($name, include_str!(concat!("../../../looks/", $name, ".toml")))),+]
     };
 }
 

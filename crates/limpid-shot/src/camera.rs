@@ -1,10 +1,10 @@
 //! Camera and surroundings, the same for all frames of a sequence.
 
-use super::frame::FrameParticles;
-use super::options::Options;
-use super::props::Props;
-use super::survey::Survey;
-use crate::failure::Failure;
+use crate::Error;
+use crate::frame::FrameParticles;
+use crate::options::Options;
+use crate::props::Props;
+use crate::survey::Survey;
 use glam::{DVec3, dvec3};
 use limpid::{Body, Bounds, Environment, Framing, Lamp, MOST_LAMPS, View};
 use limpid_headless::Shot;
@@ -20,22 +20,27 @@ const NEAR_IN_DISTANCES: f64 = 1e-6;
 const PARALLEL: f64 = 1e-6;
 
 /// Where every frame is seen.
+#[derive(Clone, Copy, Debug)]
 pub struct Stage {
+    pose: Pose,
     view: View,
     environment: Environment,
 }
 
-/// Eye, target and up of a picture.
+/// Where the camera is and how it is held, world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Pose {
-    eye: DVec3,
-    target: DVec3,
-    up: DVec3,
+pub struct Pose {
+    /// Where it is.
+    pub eye: DVec3,
+    /// What it looks at.
+    pub target: DVec3,
+    /// What is up in the picture, of any length.
+    pub up: DVec3,
 }
 
 impl Stage {
     /// Sets camera, floor and sun around the fluid.
-    pub fn of(options: &Options, survey: &Survey, props: &Props) -> Result<Self, Failure> {
+    pub fn of(options: &Options, survey: &Survey, props: &Props) -> Result<Self, Error> {
         let unit = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
         let radius_world = survey.radius_world();
         let bounds = survey.bounds.unwrap_or(unit);
@@ -59,7 +64,12 @@ impl Stage {
             floor: around.floor.filter(|_| options.has_floor()),
             ..around
         };
-        Ok(Self { view, environment })
+        Ok(Self { pose, view, environment })
+    }
+
+    /// Where the camera is.
+    pub fn pose(&self) -> Pose {
+        self.pose
     }
 
     /// A frame on this stage.
@@ -79,25 +89,25 @@ impl Stage {
 }
 
 /// Where the sun is, if the options say so.
-fn sun(options: &Options) -> Result<Option<DVec3>, Failure> {
+fn sun(options: &Options) -> Result<Option<DVec3>, Error> {
     let Some(direction) = options.sun_direction else { return Ok(None) };
     let toward = DVec3::from_array(direction).try_normalize();
-    toward.map(Some).ok_or_else(|| Failure::usage("--sun-direction has no length: give a direction, like 0,1,0"))
+    toward.map(Some).ok_or_else(|| Error::usage("--sun-direction has no length: give a direction, like 0,1,0"))
 }
 
 /// The lights beside the sun.
-fn lamps(options: &Options) -> Result<[Option<Lamp>; MOST_LAMPS], Failure> {
+fn lamps(options: &Options) -> Result<[Option<Lamp>; MOST_LAMPS], Error> {
     let given = options.light.as_deref().unwrap_or_default();
     if given.len() > MOST_LAMPS {
-        return Err(Failure::usage(format!("--light is given {} times: {MOST_LAMPS} are the most", given.len())));
+        return Err(Error::usage(format!("--light is given {} times: {MOST_LAMPS} are the most", given.len())));
     }
     let mut lamps = [None; MOST_LAMPS];
     for ([x, y, z, red, green, blue], lamp) in given.iter().copied().zip(&mut lamps) {
         let toward = DVec3::new(x, y, z).try_normalize();
-        let toward = toward.ok_or_else(|| Failure::usage("--light has no direction: begin with one, like 0,1,0"))?;
+        let toward = toward.ok_or_else(|| Error::usage("--light has no direction: begin with one, like 0,1,0"))?;
         let color = [red, green, blue].map(|value| value as f32);
         if color.iter().any(|value| *value < 0.0) {
-            return Err(Failure::usage("--light has a colour below 0: end with one like 1,0.8,0.5"));
+            return Err(Error::usage("--light has a colour below 0: end with one like 1,0.8,0.5"));
         }
         *lamp = Some(Lamp { toward, color });
     }
@@ -110,7 +120,7 @@ fn aspect(options: &Options) -> f64 {
 }
 
 /// What the options say of the camera, and what frames the fluid where they say nothing.
-fn pose(options: &Options, bounds: &Bounds, extent: &Bounds) -> Result<Pose, Failure> {
+fn pose(options: &Options, bounds: &Bounds, extent: &Bounds) -> Result<Pose, Error> {
     let data_up = options.data_up();
     let framing = Framing::of(bounds, data_up, options.fov_y(), aspect(options));
     let target = options.camera_target.map_or(framing.target, DVec3::from_array);
@@ -124,13 +134,13 @@ fn pose(options: &Options, bounds: &Bounds, extent: &Bounds) -> Result<Pose, Fai
         None => framing.eye + (target - framing.target),
     };
     let Some(forward) = (target - eye).try_normalize() else {
-        return Err(Failure::usage(
+        return Err(Error::usage(
             "--camera-eye and --camera-target are the same point: move one of them, or leave one out",
         ));
     };
     let up = match options.camera_up.map(DVec3::from_array) {
         Some(up) => up.try_normalize().filter(|up| up.cross(forward).length() > PARALLEL).ok_or_else(|| {
-            Failure::usage("--camera-up is zero or parallel to the view: turn it, for instance to another axis")
+            Error::usage("--camera-up is zero or parallel to the view: turn it, for instance to another axis")
         })?,
         None if data_up.cross(forward).length() > PARALLEL => data_up,
         // Straight down or up: what lies at the back is at the top of the picture, as on a map.
@@ -159,11 +169,11 @@ fn farthest(point: DVec3, bounds: &Bounds) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::choice::{Axis, Named};
+    use crate::choice::{Axis, Named};
 
     const BOX: Bounds = Bounds { min: dvec3(1.0, 0.0, -1.0), max: dvec3(3.0, 1.0, 1.0) };
 
-    fn pose_of(options: &Options) -> Result<Pose, Failure> {
+    fn pose_of(options: &Options) -> Result<Pose, Error> {
         pose(options, &BOX, &BOX)
     }
 

@@ -1,10 +1,11 @@
 //! The particles of one frame in the form that the renderer takes.
 
-use super::survey::Survey;
-use crate::failure::Failure;
+use crate::Error;
+use crate::survey::Survey;
 use glam::DVec3;
 use limpid::{Motion, ParticleSlices, Radius};
 use limpid_io::{ParticleSet, Values};
+use std::sync::Arc;
 
 /// One frame's particles.
 pub struct FrameParticles {
@@ -23,8 +24,11 @@ enum Radii {
 }
 
 impl FrameParticles {
-    /// Takes what is needed from a file.
-    pub fn of(set: ParticleSet, survey: &Survey) -> Result<Self, Failure> {
+    /// Takes what is needed from a file; without copying it, if nobody else holds it.
+    ///
+    /// # Errors
+    /// The frame has no radius of its own where the others do.
+    pub fn of(set: Arc<ParticleSet>, survey: &Survey) -> Result<Self, Error> {
         let density = set.attribute("density").filter(|attribute| attribute.components == 1);
         let density = density.map(|attribute| attribute.values.floats().into_owned());
         let from_file = survey.radius_in_files() && !set.is_empty();
@@ -39,7 +43,8 @@ impl FrameParticles {
         });
         let velocities = velocities_of(&set);
         let origin = DVec3::from_array(set.origin);
-        let mut frame = Self { origin, positions: set.positions, radii, density, ids, velocities, heat: None };
+        let positions = Arc::try_unwrap(set).map_or_else(|set| set.positions.clone(), |set| set.positions);
+        let mut frame = Self { origin, positions, radii, density, ids, velocities, heat: None };
         frame.drop_points();
         Ok(frame)
     }
@@ -62,6 +67,11 @@ impl FrameParticles {
             keep(velocities, &solid);
         }
         keep(radii, &solid);
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
     }
 
     /// How many there are.

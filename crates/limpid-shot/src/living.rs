@@ -1,8 +1,8 @@
 //! What lives on from frame to frame: the agitation of the particles.
 
-use super::frame::FrameParticles;
-use super::options::Options;
+use crate::frame::FrameParticles;
 use crate::number::short;
+use crate::options::Options;
 use limpid::{Agitation, AgitationLimits, Detail, Foam};
 use limpid_io::Frame;
 
@@ -94,7 +94,7 @@ impl Living {
             Foam::Agitation => "has no velocity, so no particle is agitated and --foam shows none",
             Foam::Speed => "has no velocity, so no particle is fast and --foam shows none",
         });
-        let is_empty = particles.len() == 0;
+        let is_empty = particles.is_empty();
         no_ids.into_iter().chain(no_velocity).filter(move |_| !is_empty)
     }
 

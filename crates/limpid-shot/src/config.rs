@@ -1,29 +1,29 @@
 //! Layers of options: defaults, then a configuration file, then the command line.
 
-use super::limits::{self, Range};
-use super::look;
-use super::options::{ALTERNATIVES, Options};
-use crate::failure::Failure;
+use crate::Error;
+use crate::limits::{self, Range};
+use crate::look;
 use crate::number::short;
+use crate::options::{ALTERNATIVES, Options};
 use clap::{Args, Command};
 use std::fs;
 use std::path::Path;
 use toml::{Table, Value};
 
 /// Every option as it will be used.
-pub fn effective(flags: &Options, file: Option<&Path>) -> Result<Options, Failure> {
+pub fn effective(flags: &Options, file: Option<&Path>) -> Result<Options, Error> {
     let mut table = Table::try_from(Options::defaults())?;
     if let Some(path) = file {
         overlay(&mut table, &read(path)?).map_err(|problem| in_file(path, &problem))?;
     }
-    overlay(&mut table, flags).map_err(Failure::usage)?;
+    overlay(&mut table, flags).map_err(Error::usage)?;
     limits::check(&table)?;
-    table.try_into().map_err(|error: toml::de::Error| Failure::Text(error.message().into()))
+    table.try_into().map_err(|error: toml::de::Error| Error::Text(error.message().into()))
 }
 
 /// Puts a layer over those below. What its choices imply goes under it, but over what is below: `--quality draft` wins
 /// over a scale in the file, and a scale on the command line wins over both.
-fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
+pub fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
     let as_table = |options: &Options| Table::try_from(options).map_err(|error| error.to_string());
     let below: Options = table.clone().try_into().map_err(|error: toml::de::Error| error.message().to_owned())?;
     if let Some(name) = &layer.look {
@@ -43,11 +43,11 @@ fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
     Ok(())
 }
 
-fn in_file(path: &Path, problem: &str) -> Failure {
-    Failure::usage(format!("{}: {problem}", path.display()))
+fn in_file(path: &Path, problem: &str) -> Error {
+    Error::usage(format!("{}: {problem}", path.display()))
 }
 
-fn read(path: &Path) -> Result<Options, Failure> {
+fn read(path: &Path) -> Result<Options, Error> {
     let text = fs::read_to_string(path)
         .map_err(|error| in_file(path, &format!("cannot be read ({error}); check --config")))?;
     parse(&text).map_err(|problem| in_file(path, &problem))
@@ -64,7 +64,7 @@ pub fn parse(text: &str) -> Result<Options, String> {
 }
 
 /// A configuration as a file that [`read`] takes, each key explained.
-pub fn print(options: &Options) -> Result<String, Failure> {
+pub fn print(options: &Options) -> Result<String, Error> {
     let table = Table::try_from(options)?;
     let mut text =
         String::from("# Options of limpid render, for --config. Paths are relative to the working folder.\n");

@@ -1,6 +1,6 @@
 //! What numbers the options accept.
 
-use crate::failure::Failure;
+use crate::Error;
 use crate::number::short;
 use std::fmt;
 use toml::{Table, Value};
@@ -90,12 +90,12 @@ impl fmt::Display for Range {
 }
 
 /// Checks every number of a configuration.
-pub fn check(options: &Table) -> Result<(), Failure> {
+pub fn check(options: &Table) -> Result<(), Error> {
     for (name, value) in options {
         if let Some(range) = Range::of(name)
             && let Some(bad) = numbers(value).into_iter().find(|number| !range.holds(*number))
         {
-            return Err(Failure::usage(format!("--{name} is {}, but must be {range}", short(bad))));
+            return Err(Error::usage(format!("--{name} is {}, but must be {range}", short(bad))));
         }
     }
     Ok(())
@@ -114,7 +114,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::options::Options;
+    use crate::options::Options;
 
     #[test]
     fn the_library_accepts_both_ends_of_every_range() {

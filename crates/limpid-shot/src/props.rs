@@ -1,10 +1,9 @@
 //! What stands in the scene beside the fluid: `--mesh` and `--bodies`.
 
-use super::options::Options;
-use crate::failure::Failure;
+use crate::Error;
+use crate::options::Options;
 use glam::{DMat3, DMat4, DVec3};
 use limpid::{Body, Bounds, Look, Material, PartSlices, TextureSlices};
-use limpid_headless::Gpu;
 use limpid_io::Frame;
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -98,7 +97,7 @@ impl Pose {
 
 impl Props {
     /// Reads what the options name, for these frames.
-    pub fn load(options: &Options, frames: &[Frame]) -> Result<Self, Failure> {
+    pub fn load(options: &Options, frames: &[Frame]) -> Result<Self, Error> {
         let mut props = Self { numbers: frames.iter().map(number_of).collect(), ..Self::default() };
         let mut given: Vec<PathBuf> = options.mesh.iter().flatten().map(PathBuf::from).collect();
         if let Some(path) = &options.bodies {
@@ -119,8 +118,8 @@ impl Props {
     }
 
     /// Reads the bodies; takes their meshes out of those `given` where there is one of their name.
-    fn load_listing(&mut self, path: &Path, given: &mut Vec<PathBuf>) -> Result<(), Failure> {
-        let broken = |problem: String| Failure::usage(format!("{}: {problem}", path.display()));
+    fn load_listing(&mut self, path: &Path, given: &mut Vec<PathBuf>) -> Result<(), Error> {
+        let broken = |problem: String| Error::usage(format!("{}: {problem}", path.display()));
         let text =
             fs::read_to_string(path).map_err(|error| broken(format!("cannot be read ({error}); check --bodies")))?;
         let listing: Listing = serde_json::from_str(&text)
@@ -176,7 +175,7 @@ impl Props {
         Ok(())
     }
 
-    fn load_mesh(&mut self, path: &Path) -> Result<usize, Failure> {
+    fn load_mesh(&mut self, path: &Path) -> Result<usize, Error> {
         let mesh = limpid_mesh::load(path)?;
         self.warnings.extend(mesh.warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
         self.meshes.push(mesh);
@@ -209,10 +208,10 @@ impl Props {
     }
 
     /// The meshes on the device, in order.
-    pub fn upload(&self, gpu: &Gpu) -> Vec<limpid::Mesh> {
+    pub fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Vec<limpid::Mesh> {
         let upload = |mesh: &limpid_mesh::Mesh| {
             let parts: Vec<PartSlices<'_>> = mesh.parts.iter().map(slices).collect();
-            limpid::Mesh::upload(&gpu.device, &gpu.queue, &parts)
+            limpid::Mesh::upload(device, queue, &parts)
         };
         self.meshes.iter().map(upload).collect()
     }

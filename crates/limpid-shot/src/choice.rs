@@ -65,8 +65,11 @@ impl Choice for Aov {
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
+    /// Often the sideways one.
     X,
+    /// The usual up.
     Y,
+    /// Up in engineering and Blender.
     Z,
 }
 
@@ -77,8 +80,11 @@ impl Choice for Axis {
 /// Speed against looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
+    /// Half the resolution, a quarter for the thickness.
     Draft,
+    /// The defaults.
     Standard,
+    /// Everything at full resolution.
     High,
 }
 

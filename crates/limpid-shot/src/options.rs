@@ -1,8 +1,8 @@
 //! Every option of `limpid render`, as flags and as keys of a configuration file.
 
-use super::choice::{Axis, Named, Quality, choice};
-use super::size::Size;
-use crate::failure::Failure;
+use crate::Error;
+use crate::choice::{Axis, Named, Quality, choice};
+use crate::size::Size;
 use clap::{ArgAction, Args};
 use glam::DVec3;
 use limpid::{Absorption, AgitationLimits, CurvatureFlow, Filter, Foam, Fresnel, Optics, Scale, Settings, Smoothing};
@@ -491,10 +491,10 @@ impl Options {
     }
 
     /// What to render.
-    pub fn inputs(&self) -> Result<&[String], Failure> {
+    pub fn inputs(&self) -> Result<&[String], Error> {
         match self.input.as_deref() {
             None | Some([]) => {
-                Err(Failure::usage("no input: give particle files, a folder or a pattern (see `limpid render --help`)"))
+                Err(Error::usage("no input: give particle files, a folder or a pattern (see `limpid render --help`)"))
             }
             Some(inputs) => Ok(inputs),
         }

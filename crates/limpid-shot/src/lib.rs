@@ -1,0 +1,30 @@
+//! Options of a picture, and the shot that they and the particles make: what the program and the viewer share.
+//!
+//! [`Options`] are layered by [`config`] (defaults, a file, what the user says on top), checked against [`Range`]s,
+//! and turned into a [`limpid_headless::Shot`] by a [`Stage`]. Every name, default, range and explanation is here only.
+
+mod camera;
+mod choice;
+pub mod config;
+mod error;
+mod frame;
+mod limits;
+mod living;
+pub mod look;
+mod number;
+mod options;
+mod props;
+mod size;
+mod survey;
+
+pub use camera::{Pose, Stage};
+pub use choice::{Axis, Choice, Named, Quality};
+pub use error::Error;
+pub use frame::FrameParticles;
+pub use limits::Range;
+pub use living::{Living, Remarks};
+pub use number::{short, significant};
+pub use options::{ALTERNATIVES, Options};
+pub use props::Props;
+pub use size::Size;
+pub use survey::Survey;
