@@ -13,6 +13,12 @@ pub enum Aov {
     RawThickness,
     /// Depth of liquid along the ray, world units.
     Thickness,
+    /// View depth where the first sheet of liquid ends ([`limpid::Settings::layers`]), +infinity where there is no fluid.
+    BackDepth,
+    /// View depth of the liquid beyond the air behind the first sheet, +infinity where there is none.
+    BeyondDepth,
+    /// Depth of the first sheet's liquid along the ray, world units.
+    FirstThickness,
     /// View-space unit normal before the filter.
     RawNormal,
     /// View-space unit normal.
@@ -48,11 +54,14 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 20] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
         Self::Thickness,
+        Self::BackDepth,
+        Self::BeyondDepth,
+        Self::FirstThickness,
         Self::RawNormal,
         Self::Normal,
         Self::RawClay,
@@ -75,6 +84,9 @@ impl Aov {
             Self::Depth => "depth",
             Self::RawThickness => "raw-thickness",
             Self::Thickness => "thickness",
+            Self::BackDepth => "back-depth",
+            Self::BeyondDepth => "beyond-depth",
+            Self::FirstThickness => "first-thickness",
             Self::RawNormal => "raw-normal",
             Self::Normal => "normal",
             Self::RawClay => "raw-clay",
@@ -95,6 +107,7 @@ impl Aov {
     pub fn channels(self) -> usize {
         match self {
             Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
+            Self::BackDepth | Self::BeyondDepth | Self::FirstThickness => 1,
             Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
             Self::Motion => 2,
             Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo | Self::Passage => 3,
@@ -108,6 +121,9 @@ impl Aov {
             Self::RawThickness | Self::RawNormal | Self::RawClay => Some(unsmoothed(settings)),
             Self::Transmittance => Some(shaded_as(settings, Shading::Transmittance)),
             Self::Albedo => Some(shaded_as(settings, Shading::Albedo)),
+            Self::BackDepth | Self::BeyondDepth | Self::FirstThickness if !settings.layers => {
+                Some(Settings { layers: true, ..*settings })
+            }
             _ => None,
         }
     }
@@ -136,11 +152,12 @@ impl Aov {
             Self::RawClay | Self::Clay => {
                 inside(words, nearness, |n| [(LAMP[0] * n[0] + LAMP[1] * n[1] + LAMP[2] * n[2]).max(0.0)])
             }
-            Self::Curvature | Self::Noise | Self::Foam => {
+            Self::Curvature | Self::Noise | Self::Foam | Self::FirstThickness => {
                 words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
             }
             Self::Transmittance | Self::Albedo => inside(words, nearness, of_whole_pixel),
             Self::Color => inside(words, nearness, |pixel| *pixel),
+            Self::BackDepth | Self::BeyondDepth => words.to_vec(),
             Self::Picture | Self::Passage | Self::Motion => words.to_vec(),
         };
         Image { size, channels: self.channels(), values }

@@ -343,6 +343,10 @@ impl Offscreen {
                 let values = self.read_detail(shot.size, usize::from(*aov == Aov::Foam))?;
                 return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
             }
+            if let Aov::BackDepth | Aov::BeyondDepth | Aov::FirstThickness = aov {
+                let values = self.read_layers(shot, *aov)?;
+                return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
+            }
             if *aov == Aov::Picture {
                 return Ok((*aov, aov.image(shot.size, &self.read_linear()?, &nearness, &shot.view)));
             }
@@ -364,6 +368,27 @@ impl Offscreen {
         let values = readback::read_words(&self.gpu.device, &self.gpu.queue, detail.values, count)?;
         let scale = size[0].div_ceil(detail.size[0]);
         Ok(pixels.map(|[x, y]| values[2 * (y / scale * detail.size[0] + x / scale) as usize + which]).collect())
+    }
+
+    /// One value of the layers at every pixel of the picture.
+    fn read_layers(&self, shot: &Shot<'_>, aov: Aov) -> Result<Vec<f32>, Error> {
+        let (Some(layers), Some(buffers)) = (self.renderer.layers(), self.renderer.buffers()) else {
+            return Ok(vec![0.0; shot.size[0] as usize * shot.size[1] as usize]);
+        };
+        let [width, height] = shot.size.map(|n| n as usize);
+        let read = |buffer, count| readback::read_words(&self.gpu.device, &self.gpu.queue, buffer, count);
+        let texels = read(layers.values, 12 * layers.size[0] as usize * layers.size[1] as usize)?;
+        let surface = read(buffers.surface, 4 * width * height)?;
+        let scale = shot.size[0].div_ceil(layers.size[0]) as usize;
+        let value = |i: usize| {
+            let texel = 12 * (i / width / scale * layers.size[0] as usize + i % width / scale);
+            match aov {
+                Aov::BackDepth => shot.view.depth_of(texels[texel + 1]),
+                Aov::BeyondDepth => shot.view.depth_of(texels[texel + 3]),
+                _ => texels[texel + 2] * surface[4 * i + 3],
+            }
+        };
+        Ok((0..width * height).map(value).collect())
     }
 
     /// What white behind everything adds to the picture.

@@ -14,13 +14,13 @@ impl Aov {
     pub fn picture(self, image: &Image, radius: f32) -> Vec<u8> {
         let values = &image.values;
         let rgb: Vec<[f32; 3]> = match self {
-            Self::RawDepth | Self::Depth => {
+            Self::RawDepth | Self::Depth | Self::BackDepth | Self::BeyondDepth => {
                 let (near, far) = range(values);
                 grey(values, |z| {
                     if z.is_finite() { 1.0 - 0.9 * (z - near) / (far - near).max(f32::MIN_POSITIVE) } else { 0.0 }
                 })
             }
-            Self::RawThickness | Self::Thickness => {
+            Self::RawThickness | Self::Thickness | Self::FirstThickness => {
                 let (_, most) = range(values);
                 grey(values, |t| t / most.max(f32::MIN_POSITIVE))
             }

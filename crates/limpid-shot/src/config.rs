@@ -114,7 +114,8 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 26] = [
+    const NOT_NUMBERS: [&str; 27] = [
+        "layers",
         "caustics",
         "mesh",
         "bodies",

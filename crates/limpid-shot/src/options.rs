@@ -113,7 +113,7 @@ pub struct Options {
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub normal_step: Option<f64>,
 
-    /// Preset of the resolutions below and of --caustics; each can be overridden
+    /// Preset of the resolutions below, --layers and --caustics; each can be overridden
     #[arg(long, value_name = "NAME", value_parser = choice::<Quality>(), help_heading = "Quality")]
     pub quality: Option<Named<Quality>>,
     /// Pixels along one side of a pixel of the fluid, which is splatted, smoothed and shaded at that resolution
@@ -151,6 +151,9 @@ pub struct Options {
     /// Count every pixel of the fluid as this many particle radii thick and measure no thickness; 0 measures it
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Look")]
     pub fixed_thickness: Option<f64>,
+    /// Follow light through the back of the liquid too, and see what liquid lies behind it beyond some air
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Look")]
+    pub layers: Option<Named<bool>>,
     /// Reflectance of a surface by its index of refraction: exact, or Schlick's approximation
     #[arg(long, value_name = "NAME", value_parser = choice::<Fresnel>(), help_heading = "Look")]
     pub fresnel: Option<Named<Fresnel>>,
@@ -310,6 +313,7 @@ impl Options {
             filter_scale: scales.map(|(filter, _)| Named(filter)),
             thickness_scale: scales.map(|(_, thickness)| Named(thickness)),
             caustics: self.quality.map(|quality| Named(quality.0 == Quality::High)),
+            layers: self.quality.map(|quality| Named(quality.0 != Quality::Draft)),
             ..smoothing
         }
     }
@@ -362,6 +366,7 @@ impl Options {
             foam_speed_min: Some(widen(detail.foam_speed[0])),
             foam_speed_max: Some(widen(detail.foam_speed[1])),
             fixed_thickness: Some(settings.fixed_thickness.map_or(0.0, widen)),
+            layers: Some(Named(settings.layers)),
             filter: smoothing.filter,
             curvature_flow: smoothing.curvature_flow,
             strength: smoothing.strength,
@@ -453,6 +458,7 @@ impl Options {
         set(&mut detail.foam_speed[1], self.foam_speed_max);
 
         settings.fixed_thickness = self.fixed_thickness.filter(|thickness| *thickness > 0.0).map(|v| v as f32);
+        settings.layers = self.layers.map_or(settings.layers, |layers| layers.0);
         let optics = &mut settings.optics;
         optics.fresnel = self.fresnel.map_or(optics.fresnel, |fresnel| fresnel.0);
         set(&mut optics.refractive_index, self.refractive_index);

@@ -41,6 +41,7 @@ struct Settings {
     fluid_scale: f32, // of them along a pixel of the fluid's images
     shading: u32, // shade.wgsl's SHADING_*
     fixed_thickness: f32, // world units; 0: the fluid's own
+    layers_px: u32, // pixels of the fluid's images along a texel of the layers' (layers.wgsl)
 }
 
 @group(0) @binding(0) var<uniform> view: View;

@@ -18,6 +18,8 @@ const SHADE: &str = concat!(
     include_str!("scene_depth.wgsl"),
     include_str!("passes/interface.wgsl"),
     include_str!("passes/body.wgsl"),
+    include_str!("passes/layers.wgsl"),
+    include_str!("passes/through.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
 
@@ -88,7 +90,7 @@ fn settings() {
         fluid_scale,
         shading,
         fixed_thickness,
-        padding,
+        layers_px,
     });
     assert_same(rust, wgsl_layout(SHADE, "Settings"));
 }

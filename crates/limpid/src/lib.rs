@@ -37,7 +37,7 @@ pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
 pub use motion::Motion;
 pub use particles::{ParticleSlices, Particles, Radius};
-pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, Renderer, Scene, TargetFormat};
+pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, LayersBuffer, Renderer, Scene, TargetFormat};
 pub use settings::{
     Absorption, Anisotropy, CurvatureFlow, Filter, Fresnel, Optics, Scale, Settings, Shading, Smoothing,
 };

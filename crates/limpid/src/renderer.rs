@@ -4,8 +4,8 @@ use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Curvature, Detail, Ellipsoids, Normals, OpticsUniform, SceneViews, Shade, Smooth, Splat, Thickness,
-    Tiles, Upsample, level_count,
+    Composite, Curvature, Detail, Ellipsoids, FluidPasses, Layers, Normals, OpticsUniform, SceneViews, Shade, Smooth,
+    Splat, Thickness, Tiles, Upsample, level_count,
 };
 use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
@@ -124,7 +124,7 @@ pub(crate) struct SettingsUniform {
     pub fluid_scale: f32,
     pub shading: u32,
     pub fixed_thickness: f32,
-    pub padding: f32,
+    pub layers_px: u32,
 }
 
 /// Counts of the thickness sums per r: fine enough that rounding vanishes, coarse enough for half a million r.
@@ -146,6 +146,8 @@ pub struct Renderer {
     upsample: Upsample,
     composite: Composite,
     curvature: Curvature,
+    /// Made when first asked for.
+    layers: Option<Layers>,
     shadow: Shadow,
     /// Made when first asked for.
     caustics: Option<Caustics>,
@@ -167,6 +169,7 @@ struct Prepared {
     nearness: wgpu::Buffer,
     /// The same at the fluid's own resolution.
     smoothed: wgpu::Buffer,
+    has_layers: bool,
     /// Noise and foam at the fluid's own resolution.
     detail: Option<wgpu::Buffer>,
 }
@@ -222,6 +225,7 @@ impl Renderer {
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
             curvature: Curvature::new(device, &layout),
+            layers: None,
             shadow: Shadow::new(device, &layout),
             caustics: None,
             shadow_tint: None,
@@ -340,6 +344,11 @@ impl Renderer {
             }
         };
 
+        if settings.layers {
+            let layers = self.layers.get_or_insert_with(|| Layers::new(device, &self.frame_layout));
+            layers.reserve(device, frame.size, settings.layers_scale())?;
+        }
+
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
@@ -372,7 +381,19 @@ impl Renderer {
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, scene.depth, &targets);
         let detail = settings.detail.is_on().then(|| self.detail.encode(recorder, queue, frame, smoothed, &targets));
-        self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), &targets);
+        let layers = self.layers.as_ref().filter(|_| settings.layers).and_then(|layers| {
+            let passes = FluidPasses {
+                tiles: &self.tiles,
+                smooth: &self.smooth,
+                normals: &self.normals,
+                shade: &self.shade,
+                nothing: &self.nothing,
+                scene: &scene,
+                shadow: self.shadow.map(),
+            };
+            layers.encode(recorder, queue, frame, &passes, (smoothed, &targets))
+        });
+        self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), layers, &targets);
         if let Some(detail) = detail.as_ref().filter(|_| settings.detail.foam != Foam::Off) {
             self.detail.foam(recorder, detail, &targets);
         }
@@ -383,7 +404,7 @@ impl Renderer {
         let images = self.composite.bind(device, picture.nearness, picture.shaded);
         let nearness = picture.nearness.clone();
         let smoothed = smoothed.clone();
-        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed, detail });
+        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed, has_layers: settings.layers, detail });
         self.targets = Some(targets);
         Ok(())
     }
@@ -418,6 +439,13 @@ impl Renderer {
         let size = self.targets.as_ref()?.size;
         let values = self.prepared.as_ref()?.detail.as_ref()?;
         Some(DetailBuffer { size, values })
+    }
+
+    /// The sheets behind the front surface in the last prepared frame, for reading back; None where they were not asked for.
+    pub fn layers(&self) -> Option<LayersBuffer<'_>> {
+        let (size, values) =
+            self.prepared.as_ref().filter(|prepared| prepared.has_layers).and(self.layers.as_ref())?.buffer()?;
+        Some(LayersBuffer { size, values })
     }
 
     /// The buffers of the last prepared frame, for reading back; None before the first.
@@ -463,6 +491,17 @@ pub struct DetailBuffer<'a> {
     pub values: &'a wgpu::Buffer,
 }
 
+/// What is behind the front surface ([`Settings::layers`]).
+#[derive(Clone, Copy)]
+pub struct LayersBuffer<'a> {
+    /// Texels across and down: half as many as the fluid has pixels, or as many where those are coarse already.
+    pub size: [u32; 2],
+    /// Twelve f32 for each: nearness of the front surface and of the back of the first sheet, that sheet's share of the
+    /// ray's liquid, nearness of the liquid beyond the air; the back's unit normal towards the eye in view space and one
+    /// unused; linear premultiplied colour of what is beyond. Nearness 0: there is none.
+    pub values: &'a wgpu::Buffer,
+}
+
 /// Images of one frame, a value for each pixel, row 0 at the top. Where `nearness` is not
 /// positive there is no fluid, and the others hold anything.
 ///
@@ -479,7 +518,7 @@ pub struct FrameBuffers<'a> {
     pub shaded: &'a wgpu::Buffer,
 }
 
-fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
+pub(crate) fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
     let Frame { particles, settings, scene, .. } = *frame;
     let smoothing = &settings.smoothing;
     // Variances add up over iterations.
@@ -507,6 +546,6 @@ fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
         fluid_scale,
         shading: settings.shading as u32,
         fixed_thickness: settings.fixed_thickness.unwrap_or(0.0) * particles.reference_radius,
-        padding: 0.0,
+        layers_px: settings.layers_scale().divisor() / settings.filter_scale.divisor(),
     }
 }

@@ -28,6 +28,11 @@ pub struct Settings {
     /// Resolution at which the fluid is splatted, smoothed and shaded, default full; the shaded colour is blended up to
     /// the picture's (van der Laan 2009, section 3.5.1).
     pub filter_scale: Scale,
+    /// Whether light is followed through the back of the first sheet of liquid too, and on to what lies beyond the air behind it:
+    /// more liquid, or the scene; default yes. Where the picture lacks what the light meets, the
+    /// [`crate::Environment`] stands in. Gaps of less than 3 r are no air. One texel for each 2 x 2 pixels, or as
+    /// coarse as `filter_scale`.
+    pub layers: bool,
     /// Neighbouring pixels farther apart than this many r belong to different sheets when normals are taken;
     /// default 3.
     pub normal_step: f32,
@@ -51,6 +56,7 @@ impl Default for Settings {
             anisotropy: Anisotropy::default(),
             smoothing: Smoothing::default().for_ellipsoids(),
             filter_scale: Scale::Full,
+            layers: true,
             normal_step: 3.0,
             detail: Detail::default(),
             optics: Optics::default(),
@@ -63,7 +69,12 @@ impl Settings {
     /// The defaults for particles drawn as spheres: the look of the 2009 paper.
     pub fn spheres() -> Self {
         let anisotropy = Anisotropy { enabled: false, ..Anisotropy::default() };
-        Self { anisotropy, smoothing: Smoothing::default(), ..Self::default() }
+        Self { anisotropy, smoothing: Smoothing::default(), layers: false, ..Self::default() }
+    }
+
+    /// Resolution of what [`Self::layers`] finds behind the front surface.
+    pub(crate) fn layers_scale(&self) -> Scale {
+        if self.filter_scale == Scale::Full { Scale::Half } else { self.filter_scale }
     }
 }
 

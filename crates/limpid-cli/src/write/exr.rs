@@ -7,7 +7,7 @@ use std::io;
 /// What compositing programs call the values: Z is depth, Y a single grey value; all other buffers are colours.
 fn channel_names(aov: Aov) -> &'static [&'static str] {
     match (aov, aov.channels()) {
-        (Aov::RawDepth | Aov::Depth, _) => &["Z"],
+        (Aov::RawDepth | Aov::Depth | Aov::BackDepth | Aov::BeyondDepth, _) => &["Z"],
         (Aov::RawNormal | Aov::Normal, _) => &["X", "Y", "Z"],
         (_, 1) => &["Y"],
         (Aov::Motion, _) => &["u", "v"],

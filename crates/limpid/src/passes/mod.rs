@@ -4,6 +4,7 @@ mod anisotropy;
 mod composite;
 mod curvature;
 mod detail;
+mod layers;
 mod neighbours;
 mod normals;
 mod shade;
@@ -20,6 +21,7 @@ pub(crate) use curvature::Curvature;
 pub(crate) use detail::Detail;
 #[cfg(test)]
 pub(crate) use detail::DetailUniform;
+pub(crate) use layers::{FluidPasses, Layers};
 pub(crate) use normals::Normals;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
 pub(crate) use smooth::{Smooth, segments_bytes};

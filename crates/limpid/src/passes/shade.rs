@@ -54,7 +54,8 @@ pub(crate) struct SceneViews<'a> {
 }
 
 pub(crate) struct Shade {
-    kernel: Kernel,
+    plain: Kernel,
+    layered: Kernel,
     optics: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
@@ -70,6 +71,8 @@ impl Shade {
             "../scene_depth.wgsl",
             "interface.wgsl",
             "body.wgsl",
+            "layers.wgsl",
+            "through.wgsl",
             "shade.wgsl"
         );
         let slots = [
@@ -83,9 +86,15 @@ impl Shade {
             Slot::Depth,
             Slot::Read,
             Slot::Color,
+            Slot::Read,
         ];
+        let kernel = |layers: bool| {
+            let constants = [("LAYERS", f64::from(u8::from(layers)))];
+            Kernel::with_constants(device, frame, &module, "shade", &slots, &constants)
+        };
         Self {
-            kernel: Kernel::new(device, frame, &module, "shade", &slots),
+            plain: kernel(false),
+            layered: kernel(true),
             optics: uniform_buffer::<OpticsUniform>(device, "optics"),
             environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
         }
@@ -96,13 +105,14 @@ impl Shade {
         queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(environment));
     }
 
-    /// Writes `targets.shaded`.
+    /// Writes `targets.shaded`. `layers`: what is behind the front surface, if that is known.
     pub fn encode(
         &self,
         recorder: &mut Recorder<'_>,
         smoothed: &wgpu::Buffer,
         scene: &SceneViews<'_>,
         shadow: &wgpu::Buffer,
+        layers: Option<&wgpu::Buffer>,
         targets: &Targets,
     ) {
         let resources = [
@@ -116,7 +126,9 @@ impl Shade {
             wgpu::BindingResource::TextureView(scene.depth),
             shadow.as_entire_binding(),
             wgpu::BindingResource::TextureView(scene.environment_map),
+            layers.unwrap_or(smoothed).as_entire_binding(),
         ];
-        recorder.run("shade", &self.kernel, &resources, &Grid::Indirect(&targets.tiles));
+        let kernel = if layers.is_some() { &self.layered } else { &self.plain };
+        recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));
     }
 }

@@ -11,6 +11,10 @@
 @group(1) @binding(7) var scene_depth: texture_depth_2d;
 @group(1) @binding(8) var<storage, read> shadow: array<f32>;
 @group(1) @binding(9) var environment_map: texture_2d<f32>;
+@group(1) @binding(10) var<storage, read> layers: array<vec4f>; // layers.wgsl's, or unused
+
+// Whether the sheets behind the front surface are known.
+override LAYERS: bool = false;
 
 const BACKGROUND_NONE: u32 = 0u;
 // What is computed: settings.rs's `Shading`.
@@ -102,21 +106,41 @@ fn lamps_light(sight: Sight, share: vec3f) -> vec3f {
     return light;
 }
 
+// What is behind the front surface and the liquid that it bounds.
+struct Behind {
+    color: vec4f, // linear premultiplied
+    share: f32, // of that light that passes the liquid's back surface
+    inner: vec3f, // what that surface mirrors from inside, in place of the rest
+    thickness: f32, // of the liquid, world units
+}
+
+fn behind_of(sight: Sight) -> Behind {
+    if LAYERS {
+        let sheet = first_sheet(sight.px, nearness_of(sight.depth));
+        if sheet.found {
+            return through_sheet(sight, sheet);
+        }
+    }
+    if settings.background == BACKGROUND_NONE {
+        return Behind(vec4f(0.0), 1.0, vec3f(0.0), sight.thickness);
+    }
+    return Behind(scene_color_behind(refracted_px(sight), sight.depth), 1.0, vec3f(0.0), sight.thickness);
+}
+
 // Linear premultiplied colour; where the host's scene is not opaque, alpha is what does not come from behind.
 fn color_of(sight: Sight) -> vec4f {
     let reflectance = select(reflectance_at(-dot(sight.normal, sight.toward)), vec3f(0.0), sight.is_submerged);
-    let through = body_transmittance(sight.thickness);
+    let behind = behind_of(sight);
+    let through = body_transmittance(behind.thickness);
     let sunlight = sunlight_on_liquid(world_from_view() * sight.position);
     let lit = light_on(world_from_view() * sight.normal, sunlight);
     let scattered = (1.0 - reflectance) * (1.0 - through) * scattered_color();
     let lamps = lamps_light(sight, scattered);
     let own = surface_light(sight, reflectance, sunlight) + (1.0 - reflectance) * body_light(through, lit) + lamps;
-    let transmitted = (1.0 - reflectance) * through;
-    if settings.background == BACKGROUND_NONE {
-        return vec4f(own, 1.0 - dot(transmitted, vec3f(1.0 / 3.0)));
-    }
-    let behind = scene_color_behind(refracted_px(sight), sight.depth);
-    return vec4f(own + transmitted * behind.rgb, 1.0 - (1.0 - behind.a) * dot(transmitted, vec3f(1.0 / 3.0)));
+    let inner = (1.0 - reflectance) * through * (1.0 - behind.share) * behind.inner;
+    let transmitted = (1.0 - reflectance) * through * behind.share;
+    let alpha = 1.0 - (1.0 - behind.color.a) * dot(transmitted, vec3f(1.0 / 3.0));
+    return vec4f(own + inner + transmitted * behind.color.rgb, alpha);
 }
 
 fn shading_of(sight: Sight) -> vec4f {

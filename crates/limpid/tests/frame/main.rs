@@ -12,6 +12,7 @@ mod detail;
 mod gaussian_windows;
 mod large_splats;
 mod laws;
+mod layers;
 mod narrow_range;
 mod normals;
 mod occlusion;

@@ -67,7 +67,9 @@ fn a_white_furnace_stays_white() {
         ("mirror", Optics { opaque: true, metal: [1.0; 3], ..clear() }),
     ];
     for (what, optics) in liquids {
-        assert_furnace(what, Settings { optics, ..Settings::default() });
+        for layers in [false, true] {
+            assert_furnace(what, Settings { optics, layers, ..Settings::default() });
+        }
     }
 }
 
@@ -134,7 +136,8 @@ fn the_background_shifts_as_the_liquid_gets_thicker() {
     let view = looking([1.6, 0.9, 1.9], [0.5, 0.25, 0.5], SIZE);
     let color = |refraction, thickness| {
         let optics = Optics { refraction, ..clear() };
-        let settings = Settings { optics, fixed_thickness: Some(thickness), ..Settings::default() };
+        // Eq. 15's shift is that of a single surface.
+        let settings = Settings { optics, fixed_thickness: Some(thickness), layers: false, ..Settings::default() };
         let shot = Shot { background: Background::Scene, ..shot_of(&cloud, view, SIZE, settings) };
         colors(&with_gpu(|offscreen| offscreen.render(&shot, &[Aov::Color])).unwrap().aovs[0].values)
     };
