@@ -31,7 +31,7 @@ pub struct Settings {
     /// Whether light is followed through the back of the first sheet of liquid too, and on to what lies beyond the air behind it:
     /// more liquid, or the scene; default yes. Where the picture lacks what the light meets, the
     /// [`crate::Environment`] stands in. Gaps of less than 3 r are no air. One texel for each 2 x 2 pixels, or as
-    /// coarse as `filter_scale`.
+    /// coarse as `filter_scale`; a pixel where there is no refraction.
     pub layers: bool,
     /// Neighbouring pixels farther apart than this many r belong to different sheets when normals are taken;
     /// default 3.
@@ -72,9 +72,11 @@ impl Settings {
         Self { anisotropy, smoothing: Smoothing::default(), layers: false, ..Self::default() }
     }
 
-    /// Resolution of what [`Self::layers`] finds behind the front surface.
+    /// Resolution of what [`Self::layers`] finds behind the front surface: bent light hides that it is coarse. Without a
+    /// bend every pixel has its own, since its picture is composited over other backgrounds then.
     pub(crate) fn layers_scale(&self) -> Scale {
-        if self.filter_scale == Scale::Full { Scale::Half } else { self.filter_scale }
+        let is_bent = self.optics.refraction > 0.0;
+        if is_bent && self.filter_scale == Scale::Full { Scale::Half } else { self.filter_scale }
     }
 }
 
