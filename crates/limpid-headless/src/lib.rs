@@ -5,6 +5,7 @@ mod gpu;
 mod motion;
 mod offscreen;
 mod readback;
+mod samples;
 mod shot;
 mod show;
 
@@ -12,7 +13,7 @@ pub use aov::{Aov, Image};
 pub use gpu::{AdapterInfo, Gpu, adapters};
 pub use limpid::PassTime;
 pub use offscreen::Offscreen;
-pub use shot::{Background, Picture, Shot, Timings};
+pub use shot::{Background, MOST_SAMPLES, Picture, Shot, Timings};
 
 /// What can go wrong without a window. Every message is one line that says what to do.
 #[derive(Debug, thiserror::Error)]

@@ -1,5 +1,6 @@
 //! A whole picture, off screen: the scene, the fluid in it, the display transform, everything read back.
 
+use crate::samples::{Mean, mixes, sample_offset_px};
 use crate::{Aov, Background, Error, Gpu, Image, Picture, Shot, Timings, motion, readback};
 use limpid::{
     Backdrop, BackdropFrame, Bodies, Display, EnvironmentMap, FloorShadow, Frame, Layer, Look, Particles, PassTime,
@@ -126,7 +127,19 @@ impl Offscreen {
     /// A shot that cannot be drawn, or a device that fails or is lost.
     pub fn render(&mut self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
         let particles = self.upload(shot)?;
-        self.submit(shot, &particles)?;
+        let mut mean = Mean::of(self.sample(shot, &particles, aovs)?);
+        let mixing: Vec<Aov> = aovs.iter().copied().filter(|aov| mixes(*aov)).collect();
+        for index in 1..shot.samples {
+            let view = shot.view.shifted_px(sample_offset_px(index), shot.size);
+            let picture = self.sample(&Shot { view, ..*shot }, &particles, &mixing)?;
+            mean.add(&picture, &mixing, aovs);
+        }
+        Ok(mean.picture(aovs))
+    }
+
+    /// One picture and its buffers.
+    fn sample(&mut self, shot: &Shot<'_>, particles: &Particles, aovs: &[Aov]) -> Result<Picture, Error> {
+        self.submit(shot, particles)?;
         let rgba = self.read_picture()?;
         let of_frames = aovs.iter().filter(|aov| **aov != Aov::Passage);
         let (others, own): (Vec<Aov>, Vec<Aov>) = of_frames.partition(|aov| aov.settings(&shot.settings).is_some());
@@ -140,18 +153,18 @@ impl Offscreen {
             let of_it: Vec<Aov> =
                 others.iter().zip(&settings).filter(|(_, s)| *s == settings_i).map(|(a, _)| *a).collect();
             let shot = Shot { settings: *settings_i, ..*shot };
-            self.submit(&shot, &particles)?;
+            self.submit(&shot, particles)?;
             images.extend(self.read_images(&shot, &of_it)?);
         }
         if aovs.contains(&Aov::Passage) {
-            let values = self.passage(shot, &particles)?;
+            let values = self.passage(shot, particles)?;
             images.push((Aov::Passage, Image { size: shot.size, channels: Aov::Passage.channels(), values }));
         }
         let image = |aov: &Aov| images.iter().find(|(kind, _)| kind == aov).map(|(_, image)| image.clone());
         Ok(Picture { size: shot.size, rgba, aovs: aovs.iter().filter_map(image).collect() })
     }
 
-    /// Renders the shot `runs` times after a warm-up and reports the GPU's time, without reading anything back.
+    /// Renders one sample of the shot `runs` times after a warm-up and reports the GPU's time, without reading anything back.
     ///
     /// # Errors
     /// As [`Self::render`].

@@ -48,7 +48,13 @@ pub struct Shot<'a> {
     pub bodies: &'a [Body<'a>],
     /// Multiplies the light before it is shown, default 1.
     pub exposure: f32,
+    /// Frames that are averaged, 1 to 256, each with the view shifted within the pixel: smooth silhouettes and highlights.
+    /// Buffers that do not mix, such as depth, are those of the pixels' centres. Default 1.
+    pub samples: u32,
 }
+
+/// Most samples of a pixel.
+pub const MOST_SAMPLES: u32 = 256;
 
 /// A finished picture.
 #[derive(Clone, Debug)]

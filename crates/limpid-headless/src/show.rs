@@ -1,5 +1,6 @@
 //! Pictures of single buffers, for the eye.
 
+use crate::samples::encode;
 use crate::{Aov, Image};
 
 /// Radius of the ball, in r, whose curvature is shown at full brightness.
@@ -64,9 +65,4 @@ fn grey(values: &[f32], shown: impl Fn(f32) -> f32) -> Vec<[f32; 3]> {
 fn range(values: &[f32]) -> (f32, f32) {
     let finite = values.iter().copied().filter(|v| v.is_finite());
     finite.map(|v| (v, v)).reduce(|(lo, hi), (v, _)| (lo.min(v), hi.max(v))).unwrap_or((0.0, 1.0))
-}
-
-/// The sRGB transfer function.
-fn encode(light: f32) -> f32 {
-    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }

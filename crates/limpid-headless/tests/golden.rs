@@ -67,6 +67,7 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
         background: golden.background,
         bodies: &[],
         exposure: 1.0,
+        samples: 1,
     };
     let picture = offscreen.render(&shot, &[]).unwrap();
     RgbaImage::from_raw(SIZE[0], SIZE[1], picture.rgba).unwrap()

@@ -84,6 +84,7 @@ impl Stage {
             background: options.background(),
             bodies,
             exposure: options.exposure(),
+            samples: options.samples(),
         }
     }
 }

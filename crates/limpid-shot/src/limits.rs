@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::number::short;
+use limpid_headless::MOST_SAMPLES;
 use std::fmt;
 use toml::{Table, Value};
 
@@ -38,6 +39,7 @@ const RANGES: &[(&str, Range)] = &[
     ("min-thickness", Range::Within(0.0, 1e6)),
     ("density-threshold", Range::Within(0.0, 1e12)),
     ("normal-step", Range::Within(0.01, 1000.0)),
+    ("samples", Range::Within(1.0, MOST_SAMPLES as f64)),
     ("exposure", Range::Within(0.0, 1000.0)),
     ("refractive-index", Range::Within(1.0, 3.0)),
     ("absorption", Range::Within(0.0, 1e6)),

@@ -15,6 +15,9 @@ const FOV_DEGREES: f64 = 45.0;
 /// How soft the shadows of bodies are where nothing else is asked for: the true sun spans 0.53 degrees, seen through no haze.
 const SUN_SIZE_DEGREES: f64 = 2.5;
 
+/// Samples of a pixel at high quality: silhouettes without steps.
+const HIGH_SAMPLES: u32 = 4;
+
 /// The light is shown as it is.
 const EXPOSURE: f64 = 1.0;
 
@@ -113,7 +116,7 @@ pub struct Options {
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Surface")]
     pub normal_step: Option<f64>,
 
-    /// Preset of the resolutions below, --layers and --caustics; each can be overridden
+    /// Preset of the resolutions and samples below, --layers and --caustics; each can be overridden
     #[arg(long, value_name = "NAME", value_parser = choice::<Quality>(), help_heading = "Quality")]
     pub quality: Option<Named<Quality>>,
     /// Pixels along one side of a pixel of the fluid, which is splatted, smoothed and shaded at that resolution
@@ -122,6 +125,10 @@ pub struct Options {
     /// Pixels along one side of a texel of the thickness image
     #[arg(long, value_name = "N", value_parser = choice::<Scale>(), help_heading = "Quality")]
     pub thickness_scale: Option<Named<Scale>>,
+
+    /// Samples of each pixel: smooth silhouettes and highlights, for as many times the work
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Quality")]
+    pub samples: Option<u32>,
 
     /// What is behind the fluid
     #[arg(long, value_name = "NAME", value_parser = choice::<Background>(), help_heading = "Look")]
@@ -285,6 +292,7 @@ impl Options {
             quality: Some(Named(Quality::Standard)),
             background: Some(Named(Background::default())),
             exposure: Some(EXPOSURE),
+            samples: Some(1),
             sun_size: Some(SUN_SIZE_DEGREES),
             caustics: Some(Named(false)),
             agitation_threshold: Some(AgitationLimits::default().threshold),
@@ -312,6 +320,7 @@ impl Options {
             floor: has_map.then_some(Named(false)),
             filter_scale: scales.map(|(filter, _)| Named(filter)),
             thickness_scale: scales.map(|(_, thickness)| Named(thickness)),
+            samples: self.quality.map(|quality| if quality.0 == Quality::High { HIGH_SAMPLES } else { 1 }),
             caustics: self.quality.map(|quality| Named(quality.0 == Quality::High)),
             layers: self.quality.map(|quality| Named(quality.0 != Quality::Draft)),
             ..smoothing
@@ -538,6 +547,11 @@ impl Options {
     /// Angle that the sun's disc spans, radians.
     pub fn sun_size(&self) -> f64 {
         self.sun_size.unwrap_or(SUN_SIZE_DEGREES).to_radians()
+    }
+
+    /// Samples of each pixel.
+    pub fn samples(&self) -> u32 {
+        self.samples.unwrap_or(1)
     }
 
     /// Factor of the light.

@@ -30,6 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         background: Background::Scene,
         bodies: &[],
         exposure: 1.0,
+        samples: 1,
     };
     let mut offscreen = Offscreen::new(Gpu::open(None)?)?;
     let picture = offscreen.render(&shot, &[Aov::Depth])?;

@@ -42,6 +42,14 @@ impl View {
         }
     }
 
+    /// The same picture moved by a part of a pixel, `offset_px` to the right and downwards: what is seen through pixel
+    /// position p + offset is then seen through p. Averages of several are anti-aliased.
+    pub fn shifted_px(&self, offset_px: [f64; 2], size: [u32; 2]) -> Self {
+        let [x, y] = [0, 1].map(|axis| 2.0 * offset_px[axis] / f64::from(size[axis]));
+        let clip_from_view = DMat4::from_translation(DVec3::new(-x, y, 0.0)) * self.clip_from_view;
+        Self { clip_from_view, ..*self }
+    }
+
     /// Whether rays leave one point (perspective) or run side by side (orthographic).
     pub fn is_perspective(&self) -> bool {
         self.clip_from_view.w_axis.w == 0.0

@@ -19,6 +19,7 @@ mod occlusion;
 mod optics;
 mod refusals;
 mod resolution;
+mod samples;
 mod shading;
 mod shadow;
 mod slab;

@@ -42,6 +42,7 @@ pub fn shot_of<'a>(cloud: &'a Cloud, view: View, size: [u32; 2], settings: Setti
         background: Background::Transparent,
         bodies: &[],
         exposure: 1.0,
+        samples: 1,
     }
 }
 
