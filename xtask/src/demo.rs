@@ -35,7 +35,7 @@ fn render(limpid: &Path, shot: &Shot) -> Result {
     let folder = picture.parent().expect("pictures lie in a folder");
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut command = Command::new(limpid);
-    command.arg("render").args(files(shot)).arg("-o").arg(picture).args(["--size", SIZE, "--anisotropy", "on"]);
+    command.arg("render").args(files(shot)).arg("-o").arg(picture).args(["--size", SIZE, "--quality", "high"]);
     if let Some((eye, target)) = shot.camera {
         command.args(["--camera-eye", eye, "--camera-target", target]);
     }

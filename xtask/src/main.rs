@@ -5,6 +5,7 @@ mod data;
 mod demo;
 mod driver;
 mod figures;
+mod gallery;
 mod golden;
 mod shell;
 mod shots;
@@ -19,6 +20,7 @@ Usage: cargo xtask VERB
   test              everything: format, lints, tests, docs, WebAssembly, size of the data
   check             the quick part of it: format, lints, tests that need no GPU
   figures           render the comparison pictures of docs/filters.md
+  gallery           render the other pictures of docs
   golden            compare with the golden pictures
   golden --accept   make what is rendered now the golden pictures
 
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
         ["test"] => checks::everything(),
         ["check"] => checks::quick(),
         ["figures"] => figures::render_all(),
+        ["gallery"] => gallery::render_all(),
         ["golden"] => golden::compare(),
         ["golden", "--accept"] => golden::accept(),
         [] | ["help" | "--help" | "-h"] => {

@@ -25,6 +25,8 @@ pub(crate) struct LensUniform {
     pub scene_texels: u32,
     pub first: u32,
     pub sun_tangent: f32,
+    pub absorption: f32,
+    pub padding: [f32; 3],
 }
 
 /// The renderer's passes, lent for the sun's view.
@@ -43,6 +45,14 @@ pub(crate) struct Light<'a> {
     pub optics: &'a Optics,
     /// Texels along the edge of the scene's map; 0: there is no scene but the floor.
     pub scene_texels: u32,
+}
+
+impl Light<'_> {
+    /// What all colours lose, per world unit.
+    fn least_absorption(&self) -> f32 {
+        let extinction = self.optics.extinction_per_world(self.particles.reference_radius);
+        extinction.into_iter().fold(f32::INFINITY, f32::min)
+    }
 }
 
 pub(crate) struct Caustics {
@@ -174,5 +184,7 @@ fn lens_uniform(light: &Light<'_>) -> LensUniform {
         scene_texels: light.scene_texels,
         first: CAUSTICS_FIRST_WORD,
         sun_tangent: light.environment.sun_tangent(),
+        absorption: light.least_absorption(),
+        padding: [0.0; 3],
     }
 }

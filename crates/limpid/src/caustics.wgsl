@@ -85,12 +85,15 @@ fn send(
     var way = 0.0;
     for (var step = 0; step < 3; step++) {
         way = max(landing_depth(landing) - depth, 0.0);
-        let wet = min(way, liquid);
-        landing = px + wet * in_liquid + (way - wet) * in_air;
+        let inner = min(way, liquid);
+        landing = px + inner * in_liquid + (way - inner) * in_air;
     }
-    let counts = COUNTS * (1.0 - dot(reflectance_at(normal.z), vec3f(1.0 / 3.0))) / f32(BUNDLES);
+    let wet = min(way, liquid);
+    // What all colours lose is lost here; what some lose beyond it tints the light where it lands (environment.wgsl).
+    let arriving = (1.0 - dot(reflectance_at(normal.z), vec3f(1.0 / 3.0))) * exp(-lens.absorption * wet);
+    let counts = COUNTS * arriving / f32(BUNDLES);
     let spread_px = way * lens.sun_tangent / abs(view.px_step);
     for (var bundle = 0; bundle < BUNDLES; bundle++) {
-        land(landing + spread_px * on_disc(bundle, BUNDLES, pixel.at), counts, min(way, liquid) / half_width());
+        land(landing + spread_px * on_disc(bundle, BUNDLES, pixel.at), counts, wet / half_width());
     }
 }

@@ -247,7 +247,9 @@ fn liquid_share(place: LightPlace) -> vec3f {
 // The same of the sun, with the light where the liquid's surface bends it to.
 fn caustic_share(place: LightPlace) -> vec3f {
     let light_liquid = gathered(place.across);
-    return exp(-environment.shadow_absorption * light_liquid.y) * light_liquid.x;
+    let absorption = environment.shadow_absorption;
+    let least = min(absorption.r, min(absorption.g, absorption.b));
+    return exp((least - absorption) * light_liquid.y) * light_liquid.x;
 }
 
 // Share that the scene leaves free.

@@ -102,7 +102,8 @@ fn light() {
 
 #[test]
 fn lens() {
-    let rust = rust_layout!(LensUniform { floor, shadow_texels, scene_texels, first, sun_tangent });
+    let rust =
+        rust_layout!(LensUniform { floor, shadow_texels, scene_texels, first, sun_tangent, absorption, padding });
     assert_same(rust, wgsl_layout(LENS, "Lens"));
 }
 

@@ -6,6 +6,7 @@ struct Lens {
     scene_texels: u32, // along the edge of the scene's, which follows it; 0: no scene
     first: u32, // word of the map where the result goes
     sun_tangent: f32, // of half the angle that the sun's disc spans
+    absorption: f32, // of the colour that is absorbed least, per world unit
 }
 
 // Words of a texel of the fluid's map; the last is all the liquid along the ray.

@@ -87,7 +87,7 @@ fn light_lands_where_the_twin_sends_it() {
         let environment = around(dvec3(0.3, 1.0, 0.2), true);
         let shadow = Shadow::cast(&cloud.slices(), &environment, ABSORPTION, cloud.radius());
         let surface = sun_surface(&cloud, &environment);
-        let twin = Caustics::cast(&surface, &environment, &shadow, 1.333f32.into());
+        let twin = Caustics::cast(&surface, &environment, &shadow, 1.333f32.into(), ABSORPTION);
         let shares = sun_shares(&cloud, environment);
         let brightest = shares.iter().map(|share| share.z).fold(0.0, f64::max);
         println!("{name}: up to {brightest} of the sun's light");

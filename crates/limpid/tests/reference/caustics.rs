@@ -35,7 +35,13 @@ pub struct Caustics {
 }
 
 impl Caustics {
-    pub fn cast(surface: &SunSurface, environment: &Environment, shadow: &Shadow, refractive_index: f64) -> Self {
+    pub fn cast(
+        surface: &SunSurface,
+        environment: &Environment,
+        shadow: &Shadow,
+        refractive_index: f64,
+        absorption_per_world: DVec3,
+    ) -> Self {
         let camera = Camera::new(environment.sun_view(), [TEXELS; 2]);
         let sun_tangent = (0.5 * environment.sun_size).tan();
         let scale = f64::from(TEXELS) / (2.0 * environment.extent);
@@ -52,7 +58,8 @@ impl Caustics {
                 let wet = liquid.min(way);
                 landing = px + wet * slope(inside) + (way - wet) * slope(refractive_index * inside);
             }
-            let light = (1.0 - fresnel(normal.z.clamp(1e-4, 1.0), refractive_index)) / f64::from(BUNDLES);
+            let arriving = (-absorption_per_world.min_element() * liquid.min(way)).exp();
+            let light = (1.0 - fresnel(normal.z.clamp(1e-4, 1.0), refractive_index)) * arriving / f64::from(BUNDLES);
             for bundle in 0..BUNDLES {
                 let at = landing + way * sun_tangent * scale * on_disc(bundle, BUNDLES, px);
                 land(&camera, &mut sums, at, light * dvec2(1.0, liquid.min(way)));
@@ -78,7 +85,7 @@ impl Caustics {
             sum +=
                 along(part.x, x) * along(part.y, y) * self.texels[self.camera.index_at(low + dvec2(x + 0.5, y + 0.5))];
         }
-        sum.x * (-absorption_per_world * sum.y).exp()
+        sum.x * ((absorption_per_world.min_element() - absorption_per_world) * sum.y).exp()
     }
 }
 

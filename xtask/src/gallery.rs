@@ -1,0 +1,94 @@
+//! The pictures that the documentation shows: of scenes, and of every look.
+
+use crate::driver;
+use crate::shell::{Result, built, cargo, output, run};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// A picture under `docs`, what it is of, under `data`, and the options that it takes.
+struct Entry(&'static str, &'static str, &'static [&'static str]);
+
+const RIGID: &[&str] = &[
+    "--size=640x360",
+    "--bodies=data/rigid_coupling/bodies.json",
+    "--camera-eye=1.9,1.5,3.6",
+    "--camera-target=0.2,0.45,0",
+];
+const JET: [&str; 4] =
+    ["--size=800x450", "--bodies=data/jet/bodies.json", "--camera-eye=1.4,1.1,2.2", "--camera-target=0,0.25,0"];
+
+const ENTRIES: &[Entry] = &[
+    Entry(
+        "water.png",
+        "dam_break_double/ParticleData_Fluid_20.bgeo",
+        &["--size=960x540", "--camera-eye=2.9,2.0,4.4", "--camera-target=0,0.9,0"],
+    ),
+    Entry("scene/rigid_7.png", "rigid_coupling/ParticleData_Fluid_7.bgeo", RIGID),
+    Entry("scene/rigid_13.png", "rigid_coupling/ParticleData_Fluid_13.bgeo", RIGID),
+    Entry("scene/rigid_22.png", "rigid_coupling/ParticleData_Fluid_22.bgeo", RIGID),
+    Entry("scene/rigid_34.png", "rigid_coupling/ParticleData_Fluid_34.bgeo", RIGID),
+    Entry(
+        "scene/blocks.png",
+        "dam_break_double/ParticleData_Fluid_15.bgeo",
+        &[
+            "--size=800x450",
+            "--bodies=data/dam_break_double/bodies.json",
+            "--camera-eye=2.9,2.2,4.6",
+            "--camera-target=0,1.1,0",
+        ],
+    ),
+    Entry("scene/jet.png", "jet/ParticleData_Fluid_42.bgeo", &JET),
+    Entry(
+        "scene/green.png",
+        "jet/ParticleData_Fluid_42.bgeo",
+        &[
+            JET[0],
+            JET[1],
+            JET[2],
+            JET[3],
+            "--strength=2",
+            "--absorption=0.14,0.012,0.12",
+            "--scattering=0.008,0.03,0.008",
+            "--albedo=0.5,1,0.4",
+            "--color=0.004,0.03,0.005",
+        ],
+    ),
+];
+
+/// What every look is shown on.
+const SUBJECT: Entry = Entry(
+    "looks",
+    "dam_break_double/ParticleData_Fluid_20.bgeo",
+    &["--size=320x240", "--camera-eye=1.9,1.4,2.9", "--camera-target=0,0.55,0"],
+);
+
+/// Renders all of them.
+pub fn render_all() -> Result {
+    driver::ensure()?;
+    run(cargo().args(["build", "--release", "--package", "limpid-cli"]))?;
+    for Entry(picture, input, options) in ENTRIES {
+        render(picture, input, options)?;
+    }
+    let Entry(folder, input, options) = SUBJECT;
+    let looks = fs::read_dir("looks").map_err(|error| format!("looks: {error}"))?;
+    for look in looks.flatten() {
+        let path = look.path();
+        let Some(name) = path.file_stem().and_then(|name| name.to_str()) else { continue };
+        render(&format!("{folder}/{name}.png"), input, &[options, &["--look", name]].concat())?;
+    }
+    println!("The pictures are in docs");
+    Ok(())
+}
+
+fn render(picture: &str, input: &str, options: &[&str]) -> Result {
+    let picture = Path::new("docs").join(picture);
+    if let Some(folder) = picture.parent() {
+        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    let mut command = Command::new(built("limpid")?);
+    command.arg("render").arg(Path::new("data").join(input)).arg("-o").arg(&picture);
+    // The simulation's own radius: a file of it does not say.
+    command.args(["--quality", "high", "--samples", "8", "--radius", "0.025"]).args(options);
+    output(&mut command).map(drop)
+}
