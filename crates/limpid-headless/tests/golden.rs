@@ -17,22 +17,28 @@ struct Golden {
     particles: &'static str,
     radius: f32,
     background: Background,
+    /// Eye and target; None: the fluid is framed.
+    camera: Option<[[f64; 3]; 2]>,
     settings: fn() -> Settings,
 }
 
-const PICTURES: [Golden; 3] = [
+const DAM_BREAK: &str = "dam_break_double/ParticleData_Fluid_20.bgeo";
+
+const PICTURES: [Golden; 6] = [
     Golden {
         name: "drop",
         particles: "sphere_drop/frame.0014.pos",
         radius: 0.008,
         background: Background::Scene,
+        camera: None,
         settings: Settings::default,
     },
     Golden {
         name: "dam_break_transparent",
-        particles: "dam_break_double/ParticleData_Fluid_20.bgeo",
+        particles: DAM_BREAK,
         radius: 0.025,
         background: Background::Transparent,
+        camera: None,
         settings: Settings::default,
     },
     Golden {
@@ -40,7 +46,33 @@ const PICTURES: [Golden; 3] = [
         particles: "rigid_coupling/ParticleData_Fluid_22.bgeo",
         radius: 0.025,
         background: Background::White,
+        camera: None,
         settings: || Settings { filter_scale: Scale::Half, ..Settings::default() },
+    },
+    // Liquid at every border of the picture.
+    Golden {
+        name: "border",
+        particles: DAM_BREAK,
+        radius: 0.025,
+        background: Background::Scene,
+        camera: Some([[0.5, 0.9, 1.5], [-0.2, 0.25, 0.0]]),
+        settings: Settings::default,
+    },
+    Golden {
+        name: "grazing",
+        particles: DAM_BREAK,
+        radius: 0.025,
+        background: Background::Scene,
+        camera: Some([[2.6, 0.42, 0.5], [0.0, 0.3, 0.0]]),
+        settings: Settings::default,
+    },
+    Golden {
+        name: "inside",
+        particles: DAM_BREAK,
+        radius: 0.025,
+        background: Background::Scene,
+        camera: Some([[-1.1, 0.15, 0.2], [1.0, 0.25, -0.2]]),
+        settings: Settings::default,
     },
 ];
 
@@ -51,7 +83,8 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
     let radius = f64::from(golden.radius);
     let bounds = Bounds::robust(points).unwrap().grown(radius);
     let (fov_y, aspect) = (45f64.to_radians(), f64::from(SIZE[0]) / f64::from(SIZE[1]));
-    let framing = Framing::of(&bounds, DVec3::Y, fov_y, aspect);
+    let framed = Framing::of(&bounds, DVec3::Y, fov_y, aspect);
+    let framing = golden.camera.map_or(framed, |[eye, target]| Framing { eye: eye.into(), target: target.into() });
     let shot = Shot {
         particles: ParticleSlices {
             origin: DVec3::ZERO,
