@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{Fault, ReadError, broken, quote};
 use crate::input::Input;
 use crate::raw::Raw;
-use crate::{bgeo, json, npy, ply, pos, table, vtk};
+use crate::{bgeo, json, npy, npz, ply, pos, table, vtk, vtk_xml};
 
 /// A particle file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -14,6 +14,10 @@ use crate::{bgeo, json, npy, ply, pos, table, vtk};
 pub enum Format {
     /// Legacy VTK.
     Vtk,
+    /// VTK's XML of an UnstructuredGrid.
+    Vtu,
+    /// VTK's XML of PolyData.
+    Vtp,
     /// Classic BGEO.
     Bgeo,
     /// Count, radius and positions.
@@ -28,20 +32,35 @@ pub enum Format {
     Json,
     /// A NumPy array of positions.
     Npy,
+    /// An archive of NumPy arrays.
+    Npz,
 }
 
 impl Format {
     /// All names, for a message.
-    pub(crate) const NAMES: &str = ".vtk, .bgeo, .pos, .ply, .csv, .xyz, .json or .npy";
+    pub(crate) const NAMES: &str = ".vtk, .vtu, .vtp, .bgeo, .pos, .ply, .csv, .xyz, .json, .npy or .npz";
 
     /// All formats.
-    pub const ALL: [Self; 8] =
-        [Self::Vtk, Self::Bgeo, Self::Pos, Self::Ply, Self::Csv, Self::Xyz, Self::Json, Self::Npy];
+    pub const ALL: [Self; 11] = [
+        Self::Vtk,
+        Self::Vtu,
+        Self::Vtp,
+        Self::Bgeo,
+        Self::Pos,
+        Self::Ply,
+        Self::Csv,
+        Self::Xyz,
+        Self::Json,
+        Self::Npy,
+        Self::Npz,
+    ];
 
     /// The canonical name, which is also the usual file name extension.
     pub fn name(self) -> &'static str {
         match self {
             Self::Vtk => "vtk",
+            Self::Vtu => "vtu",
+            Self::Vtp => "vtp",
             Self::Bgeo => "bgeo",
             Self::Pos => "pos",
             Self::Ply => "ply",
@@ -49,6 +68,7 @@ impl Format {
             Self::Xyz => "xyz",
             Self::Json => "json",
             Self::Npy => "npy",
+            Self::Npz => "npz",
         }
     }
 
@@ -67,6 +87,12 @@ impl Format {
         }
         if let Some(format) = Self::of_magic(head) {
             return Ok(format);
+        }
+        if vtk_xml::is_start(head) {
+            return Ok(if Self::of_name(path) == Some(Self::Vtp) { Self::Vtp } else { Self::Vtu });
+        }
+        if head.starts_with(npz::MAGIC) && Self::of_name(path) == Some(Self::Npz) {
+            return Ok(Self::Npz);
         }
         if let Some((what, remedy)) = unsupported(head, path) {
             let (what, remedy) = (what.into(), remedy.into());
@@ -106,12 +132,14 @@ impl Format {
     pub(crate) fn read(self, input: &mut Input) -> Result<Raw, Fault> {
         match self {
             Self::Vtk => vtk::read(input),
+            Self::Vtu | Self::Vtp => vtk_xml::read(input),
             Self::Bgeo => bgeo::read(input),
             Self::Pos => pos::read(input),
             Self::Ply => ply::read(input),
             Self::Csv | Self::Xyz => table::read(input),
             Self::Json => json::read(input),
             Self::Npy => npy::read(input),
+            Self::Npz => npz::read(input),
         }
     }
 }
@@ -137,9 +165,7 @@ fn unsupported(head: &[u8], path: &Path) -> Option<(&'static str, &'static str)>
         (b"Ogawa", "an Alembic file", BLENDER),
         (b"PXR-USDC", "a USD file", BLENDER),
         (b"#usda", "a USD file", BLENDER),
-        (b"<?xml", "an XML file (such as VTK's .vtu and .vtp)", PARAVIEW),
-        (b"<VTKFile", "a VTK XML file", PARAVIEW),
-        (b"PK\x03\x04", "a zip archive (such as .npz and .usdz)", "write .npy, .ply or .vtk"),
+        (b"PK\x03\x04", "a zip archive (such as .usdz)", "write .npz, .ply or .vtk"),
         (b"\xda\xba\xfa\x00", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
         (b"\xda\xba\xda\xfa", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
     ];

@@ -52,6 +52,12 @@ impl Input {
         Ok(Self { reader, head, gzipped, left, word: Vec::new() })
     }
 
+    /// Bytes from elsewhere, at most so many, as a stream: what is claimed is checked against that.
+    pub fn of_stream(stream: Box<dyn Read>, most: u64) -> Self {
+        let reader = BufReader::with_capacity(BUFFER, stream);
+        Self { reader, head: Vec::new(), gzipped: true, left: most, word: Vec::new() }
+    }
+
     /// The first bytes, for telling the format.
     pub fn head(&self) -> &[u8] {
         &self.head
@@ -200,6 +206,16 @@ impl Input {
             }
         }
         if self.word.is_empty() { broken!("it ends too early") } else { Ok(&self.word) }
+    }
+
+    /// Everything that is left, in memory.
+    pub fn all(&mut self) -> Result<Vec<u8>, Fault> {
+        let mut bytes = Vec::new();
+        if !self.gzipped {
+            bytes.reserve_exact(self.left as usize);
+        }
+        self.reader.read_to_end(&mut bytes)?;
+        Ok(bytes)
     }
 
     /// Everything that is left, for formats whose text another crate parses.

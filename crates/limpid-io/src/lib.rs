@@ -11,9 +11,11 @@ mod input;
 mod json;
 mod names;
 mod npy;
+mod npz;
 mod particles;
 mod ply;
 mod pos;
+mod pvd;
 mod radius;
 mod raw;
 mod sequence;
@@ -21,6 +23,7 @@ mod spacing;
 mod table;
 mod values;
 mod vtk;
+mod vtk_xml;
 
 use std::path::Path;
 

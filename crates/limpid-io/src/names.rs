@@ -125,7 +125,8 @@ fn join(attributes: &mut Vec<Attribute>, name: String, columns: &[usize]) {
     attributes.insert(at, Attribute { name, components: columns.len(), values: interleave(&columns) });
 }
 
-fn interleave(columns: &[Values]) -> Values {
+/// Columns as rows.
+pub(crate) fn interleave(columns: &[Values]) -> Values {
     let len = columns[0].len();
     let same_type = columns.iter().all(|c| std::mem::discriminant(c) == std::mem::discriminant(&columns[0]));
     let order = || (0..len).flat_map(|row| columns.iter().map(move |column| (column, row)));

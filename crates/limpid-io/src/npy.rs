@@ -1,14 +1,47 @@
-//! NPY: one NumPy array of n rows of x, y and z.
+//! NPY: one NumPy array, of n rows of x, y and z where it is a file of its own.
 
 use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
+use crate::names;
 use crate::raw::{Positions, Raw};
-use crate::values::{Encoding, Scalar};
+use crate::values::{Encoding, Scalar, Values};
 
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 const LONGEST_HEADER: usize = 1 << 16;
+const MOST_COLUMNS: u64 = 64;
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
+    let Array { shape, values } = read_array(input)?;
+    match shape {
+        Shape::Rows(count, 3) => {
+            if !input.at_end()? {
+                return broken!("bytes follow its {count} rows");
+            }
+            Ok(Raw::new(Positions::from_triples(values)))
+        }
+        Shape::Rows(count, columns) => broken!("its shape is ({count}, {columns}), not (n, 3)"),
+        Shape::Other(shape) => broken!("its shape is {}, not (n, 3)", quote(shape.as_bytes())),
+        Shape::NoNumbers(kind) => broken!("its numbers are of the type {}, not f4 or f8", quote(kind.as_bytes())),
+    }
+}
+
+/// An array with its rows one after the other.
+pub(crate) struct Array {
+    pub shape: Shape,
+    pub values: Values,
+}
+
+pub(crate) enum Shape {
+    /// Rows and columns; 1 column for a plain list.
+    Rows(u64, u64),
+    /// Rows of another number of dimensions, whose values are not read.
+    Other(String),
+    /// Texts, objects or records, which are not read.
+    NoNumbers(String),
+}
+
+/// Reads the array at the front of an input.
+pub(crate) fn read_array(input: &mut Input) -> Result<Array, Fault> {
     input.skip(MAGIC.len() as u64)?;
     let [major, _minor] = input.bytes()?;
     let length = match major {
@@ -23,19 +56,23 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     input.exact(&mut header)?;
     let header = String::from_utf8_lossy(&header).into_owned();
 
-    let (scalar, encoding) = number_type(&header)?;
-    let count = rows(&header)?;
-    let positions = if entry(&header, "fortran_order")?.starts_with("True") {
-        let mut column = || input.values(scalar, encoding, count);
-        Positions::from_columns([column()?, column()?, column()?])
+    let shape = shape(&header)?;
+    let Shape::Rows(rows, columns) = shape else { return Ok(Array { shape, values: Values::U8(Vec::new()) }) };
+    let (scalar, encoding) = match number_type(&header)? {
+        Ok(number) => number,
+        Err(kind) => return Ok(Array { shape: Shape::NoNumbers(kind), values: Values::U8(Vec::new()) }),
+    };
+    let values = if columns > 1 && entry(&header, "fortran_order")?.starts_with("True") {
+        if columns > MOST_COLUMNS {
+            return broken!("an array has {columns} columns");
+        }
+        let read = (0..columns).map(|_| input.values(scalar, encoding, rows)).collect::<Result<Vec<_>, _>>()?;
+        names::interleave(&read)
     } else {
         // A count that overflows is too large for any file, and refused as such.
-        Positions::from_triples(input.values(scalar, encoding, count.saturating_mul(3))?)
+        input.values(scalar, encoding, rows.saturating_mul(columns))?
     };
-    if !input.at_end()? {
-        return broken!("bytes follow its {count} rows");
-    }
-    Ok(Raw::new(positions))
+    Ok(Array { shape, values })
 }
 
 /// What follows a key of the header, which is a Python dictionary of fixed keys.
@@ -47,14 +84,11 @@ fn entry<'a>(header: &'a str, key: &str) -> Result<&'a str, Fault> {
     }
 }
 
-/// A type such as `'<f4'`.
-fn number_type(header: &str) -> Result<(Scalar, Encoding), Fault> {
+/// A type such as `'<f4'`, or the one that is no number's.
+fn number_type(header: &str) -> Result<Result<(Scalar, Encoding), String>, Fault> {
     let descr = entry(header, "descr")?;
     let Some(name) = descr.strip_prefix('\'').and_then(|descr| descr.split('\'').next()) else {
-        return Err(Fault::Unsupported {
-            what: "a NumPy array of records".into(),
-            remedy: "write an array of shape (n, 3), or .csv",
-        });
+        return Ok(Err("record".into()));
     };
     let encoding = if name.starts_with('>') { Encoding::Big } else { Encoding::Little };
     let scalar = match name.trim_start_matches(['<', '>', '=', '|']) {
@@ -68,18 +102,18 @@ fn number_type(header: &str) -> Result<(Scalar, Encoding), Fault> {
         "u8" => Scalar::U64,
         "f4" => Scalar::F32,
         "f8" => Scalar::F64,
-        _ => return broken!("its numbers are of the type {}, not f4 or f8", quote(name.as_bytes())),
+        _ => return Ok(Err(name.into())),
     };
-    Ok((scalar, encoding))
+    Ok(Ok((scalar, encoding)))
 }
 
-/// The n of a shape `(n, 3)`.
-fn rows(header: &str) -> Result<u64, Fault> {
+fn shape(header: &str) -> Result<Shape, Fault> {
     let shape = entry(header, "shape")?;
     let shape = shape.split_once(')').map_or(shape, |(shape, _)| shape).trim_start_matches('(');
     let sizes: Vec<&str> = shape.split(',').map(str::trim).filter(|size| !size.is_empty()).collect();
     match sizes[..] {
-        [rows, "3"] => parse(rows.as_bytes()),
-        _ => broken!("its shape is {}, not (n, 3)", quote(shape.as_bytes())),
+        [rows] => Ok(Shape::Rows(parse(rows.as_bytes())?, 1)),
+        [rows, columns] => Ok(Shape::Rows(parse(rows.as_bytes())?, parse(columns.as_bytes())?)),
+        _ => Ok(Shape::Other(shape.into())),
     }
 }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::show;
-use crate::{Format, ReadError};
+use crate::{Format, ReadError, pvd};
 
 /// Frames in order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,8 +27,8 @@ pub struct Frame {
 }
 
 /// Expands inputs into frames. An input is a file, a folder, a pattern of numbered files (`frame_{}.vtk`,
-/// `frame_%04d.bgeo`, `frame_####.ply`, `frame_$F4.bgeo`), a glob (`*` and `?` in the file name) or a `.vtk.series`
-/// file, whose order stays.
+/// `frame_%04d.bgeo`, `frame_####.ply`, `frame_$F4.bgeo`), a glob (`*` and `?` in the file name), a `.vtk.series`
+/// file, whose order stays, or a `.pvd` file, whose frames are ordered by time.
 ///
 /// Numbers are ordered as numbers, padded or not. Files given one by one keep their order, except that neighbours of
 /// the same sequence are ordered by number, since a shell lists `_10` before `_2`.
@@ -43,6 +43,11 @@ pub fn expand(inputs: &[String]) -> Result<Sequence, ReadError> {
         } else if path.extension() == Some(OsStr::new("series")) && path.is_file() {
             sequence.append_files(&mut files);
             sequence.frames.extend(series(path)?);
+        } else if path.extension() == Some(OsStr::new("pvd")) && path.is_file() {
+            sequence.append_files(&mut files);
+            let (frames, warning) = pvd::read(path)?;
+            sequence.frames.extend(frames);
+            sequence.warnings.extend(warning);
         } else if path.exists() {
             files.push(path.to_owned());
         } else if let Some(found) = pattern(input, path)? {
@@ -63,7 +68,7 @@ pub fn expand(inputs: &[String]) -> Result<Sequence, ReadError> {
 
 /// What files of one sequence share: everything but the number.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Name {
+pub(crate) struct Name {
     folder: PathBuf,
     before: String,
     after: String,
@@ -127,7 +132,7 @@ impl Name {
 }
 
 /// Takes the number out of a file name: the last digits before the extension.
-fn split(path: PathBuf) -> (Name, Frame) {
+pub(crate) fn split(path: PathBuf) -> (Name, Frame) {
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let lower = name.to_ascii_lowercase();

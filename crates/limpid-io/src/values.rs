@@ -33,6 +33,21 @@ impl Values {
         }
     }
 
+    /// Puts numbers of the same type behind these.
+    pub(crate) fn append(&mut self, other: Self) -> Result<(), Fault> {
+        match (self, other) {
+            (Self::U8(array), Self::U8(mut other)) => array.append(&mut other),
+            (Self::I32(array), Self::I32(mut other)) => array.append(&mut other),
+            (Self::I64(array), Self::I64(mut other)) => array.append(&mut other),
+            (Self::F32(array), Self::F32(mut other)) => array.append(&mut other),
+            (Self::F64(array), Self::F64(mut other)) => array.append(&mut other),
+            (this, other) if this.is_empty() => *this = other,
+            (_, other) if other.is_empty() => {}
+            _ => return broken!("an array has another type in each of its pieces"),
+        }
+        Ok(())
+    }
+
     /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0

@@ -1,0 +1,90 @@
+//! Base64 read as it is needed. VTK puts several encoded runs behind each other, each with its own padding, and only the first
+//! says how long the next is: decoders of a whole text, such as the base64 crate's, cannot read that.
+
+use std::io::{self, Read};
+
+pub(super) struct Base64<'a> {
+    text: &'a [u8],
+    /// Decoded and not yet given, the next last.
+    ready: Vec<u8>,
+}
+
+/// The value of each character; 0xff: none.
+const VALUES: [u8; 256] = {
+    let alphabet = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut values = [0xff; 256];
+    let mut index = 0;
+    while index < 64 {
+        values[alphabet[index] as usize] = index as u8;
+        index += 1;
+    }
+    values
+};
+
+impl<'a> Base64<'a> {
+    pub fn new(text: &'a [u8]) -> Self {
+        Self { text, ready: Vec::with_capacity(3) }
+    }
+
+    /// The bytes of the next four characters; None at the end of the text, or at what is no base64.
+    fn quad(&mut self) -> Option<([u8; 3], usize)> {
+        let mut quad = [0; 4];
+        for slot in &mut quad {
+            let skipped = self.text.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+            *slot = *self.text.get(skipped)?;
+            self.text = &self.text[skipped + 1..];
+        }
+        let padding = quad.iter().rev().take_while(|byte| **byte == b'=').count();
+        let bits = quad.iter().try_fold(0u32, |bits, byte| match VALUES[*byte as usize] {
+            0xff if *byte == b'=' && padding <= 2 => Some(bits << 6),
+            0xff => None,
+            value => Some(bits << 6 | u32::from(value)),
+        })?;
+        let [_, bytes @ ..] = bits.to_be_bytes();
+        Some((bytes, 3 - padding))
+    }
+}
+
+impl Read for Base64<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let mut filled = 0;
+        while filled < buffer.len() {
+            if let Some(byte) = self.ready.pop() {
+                buffer[filled] = byte;
+                filled += 1;
+                continue;
+            }
+            let Some((bytes, count)) = self.quad() else { break };
+            if count == 3 && buffer.len() - filled >= 3 {
+                buffer[filled..filled + 3].copy_from_slice(&bytes);
+                filled += 3;
+            } else {
+                self.ready.extend(bytes[..count].iter().rev());
+            }
+        }
+        Ok(filled)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn padded_runs_follow_each_other() {
+        let mut text = Base64::new(b" TWFu\nTQ== TWE=\tTWFu<");
+        let mut bytes = Vec::new();
+        text.read_to_end(&mut bytes).unwrap();
+        assert_eq!(bytes, b"ManMMaMan");
+    }
+
+    #[test]
+    fn small_reads_lose_nothing() {
+        let mut text = Base64::new(b"TWFuTWFu");
+        let mut two = [0; 2];
+        for expected in [b"Ma", b"nM", b"an"] {
+            text.read_exact(&mut two).unwrap();
+            assert_eq!(&two, expected);
+        }
+    }
+}
