@@ -116,7 +116,7 @@ impl Aov {
     }
 
     /// The settings of the frame that it is of, where those are not the picture's own.
-    pub(crate) fn settings(self, settings: &Settings) -> Option<Settings> {
+    pub fn settings(self, settings: &Settings) -> Option<Settings> {
         match self {
             Self::RawThickness | Self::RawNormal | Self::RawClay => Some(unsmoothed(settings)),
             Self::Transmittance => Some(shaded_as(settings, Shading::Transmittance)),

@@ -17,7 +17,8 @@ pub struct AdapterInfo {
 }
 
 impl AdapterInfo {
-    fn new(info: &wgpu::AdapterInfo) -> Self {
+    /// What wgpu says of an adapter.
+    pub fn new(info: &wgpu::AdapterInfo) -> Self {
         let kind = match info.device_type {
             wgpu::DeviceType::DiscreteGpu => "discrete gpu",
             wgpu::DeviceType::IntegratedGpu => "integrated gpu",
@@ -57,6 +58,12 @@ fn ranked() -> Vec<wgpu::Adapter> {
         ..wgpu::InstanceDescriptor::new_without_display_handle()
     });
     let mut adapters = block_on(instance.enumerate_adapters(backends));
+    rank(&mut adapters);
+    adapters
+}
+
+/// Keeps those that can run limpid, the best first.
+fn rank(adapters: &mut Vec<wgpu::Adapter>) {
     adapters.retain(|adapter| wgpu::Limits::default().check_limits(&adapter.limits()));
     let rank = |info: &wgpu::AdapterInfo| match info.device_type {
         wgpu::DeviceType::DiscreteGpu => 0,
@@ -66,7 +73,6 @@ fn ranked() -> Vec<wgpu::Adapter> {
         wgpu::DeviceType::Other => 4,
     };
     adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
-    adapters
 }
 
 impl Gpu {
@@ -76,32 +82,41 @@ impl Gpu {
     /// No adapter, none of that name, or a device that the driver refuses.
     pub fn open(wanted: Option<&str>) -> Result<Self, Error> {
         let adapters = ranked();
-        if adapters.is_empty() {
-            return Err(Error::NoAdapter);
-        }
-        let Some(adapter) = pick(&adapters, wanted) else {
-            let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
-            return Err(Error::UnknownAdapter {
-                wanted: wanted.unwrap_or_default().to_owned(),
-                available: names.join(", "),
-            });
-        };
-        let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-            label: Some("limpid"),
-            // What the library needs are the default limits; larger buffers and images are welcome where they exist.
-            required_limits: wgpu::Limits {
-                max_buffer_size: adapter.limits().max_buffer_size,
-                max_storage_buffer_binding_size: adapter.limits().max_storage_buffer_binding_size,
-                max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
-                ..wgpu::Limits::default()
-            },
-            required_features: adapter.features()
-                & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE),
-            ..Default::default()
-        }))
-        .map_err(|error| Error::Device(error.to_string()))?;
+        let adapter = &choose(adapters, wanted)?;
+        let (device, queue) = block_on(adapter.request_device(&device_descriptor(adapter)))
+            .map_err(|error| Error::Device(error.to_string()))?;
         Ok(Self { info: AdapterInfo::new(&adapter.get_info()), device, queue })
     }
+}
+
+/// What limpid asks of an adapter: the default limits, larger buffers and images and exact blending where they exist.
+pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+    wgpu::DeviceDescriptor {
+        label: Some("limpid"),
+        required_limits: wgpu::Limits {
+            max_buffer_size: adapter.limits().max_buffer_size,
+            max_storage_buffer_binding_size: adapter.limits().max_storage_buffer_binding_size,
+            max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
+            ..wgpu::Limits::default()
+        },
+        required_features: adapter.features() & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE),
+        ..Default::default()
+    }
+}
+
+/// The adapter that `wanted` names, or the best, among those that a window can use.
+///
+/// # Errors
+/// None can run limpid, or none has that name.
+pub fn choose(mut adapters: Vec<wgpu::Adapter>, wanted: Option<&str>) -> Result<wgpu::Adapter, Error> {
+    rank(&mut adapters);
+    if adapters.is_empty() {
+        return Err(Error::NoAdapter);
+    }
+    let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let unknown =
+        || Error::UnknownAdapter { wanted: wanted.unwrap_or_default().to_owned(), available: names.join(", ") };
+    pick(&adapters, wanted).cloned().ok_or_else(unknown)
 }
 
 fn pick<'a>(adapters: &'a [wgpu::Adapter], wanted: Option<&str>) -> Option<&'a wgpu::Adapter> {

@@ -4,15 +4,20 @@ mod aov;
 mod gpu;
 mod motion;
 mod offscreen;
+mod painter;
+mod peek;
 mod readback;
 mod samples;
 mod shot;
 mod show;
 
 pub use aov::{Aov, Image};
-pub use gpu::{AdapterInfo, Gpu, adapters};
+pub use gpu::{AdapterInfo, Gpu, adapters, choose, device_descriptor};
 pub use limpid::PassTime;
 pub use offscreen::Offscreen;
+pub use painter::Painter;
+pub use peek::Peek;
+pub use readback::Download;
 pub use shot::{Background, MOST_SAMPLES, Picture, Shot, Timings};
 
 /// What can go wrong without a window. Every message is one line that says what to do.

@@ -38,6 +38,11 @@ impl Input {
             return Err(io::ErrorKind::IsADirectory.into());
         }
         let size = file.metadata()?.len();
+        Self::of(Box::new(file), size)
+    }
+
+    /// A file of `size` bytes, wherever it comes from.
+    pub fn of(file: Box<dyn Read>, size: u64) -> io::Result<Self> {
         let mut file = BufReader::with_capacity(BUFFER, file);
         let gzipped = file.fill_buf()?.starts_with(&[0x1f, 0x8b]);
         let mut stream: Box<dyn Read> = if gzipped { Box::new(GzDecoder::new(file)) } else { Box::new(file) };

@@ -25,18 +25,30 @@ mod values;
 mod vtk;
 mod vtk_xml;
 
+use std::io::{self, Cursor};
 use std::path::Path;
+use std::sync::Arc;
 
 pub use error::ReadError;
 pub use format::Format;
 pub use particles::{Attribute, Bounds, ParticleSet, PolygonMesh};
 pub use radius::{Radius, RadiusSource};
-pub use sequence::{Frame, Sequence, expand};
+pub use sequence::{Frame, Sequence, expand, in_order};
 pub use values::Values;
 
 /// Reads one file. Its contents decide what format it is, and its name where they do not.
 pub fn read(path: &Path) -> Result<ParticleSet, ReadError> {
-    let mut input = input::Input::open(path).map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
+    of_input(path, input::Input::open(path))
+}
+
+/// The same for a file that is in memory already, such as one dropped on a web page.
+pub fn read_bytes(path: &Path, bytes: Arc<[u8]>) -> Result<ParticleSet, ReadError> {
+    let size = bytes.len() as u64;
+    of_input(path, input::Input::of(Box::new(Cursor::new(bytes)), size))
+}
+
+fn of_input(path: &Path, input: io::Result<input::Input>) -> Result<ParticleSet, ReadError> {
+    let mut input = input.map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
     let format = Format::of_input(&input, path)?;
     let raw = format.read(&mut input).map_err(|fault| fault.at(path, format))?;
     raw.finish(path, format)

@@ -66,6 +66,14 @@ pub fn expand(inputs: &[String]) -> Result<Sequence, ReadError> {
     Ok(sequence)
 }
 
+/// Files by name alone, as [`expand`] orders those given one by one; whether they exist is not looked at.
+pub fn in_order(mut files: Vec<PathBuf>) -> Sequence {
+    files.sort();
+    let mut sequence = Sequence::default();
+    sequence.append_files(&mut files);
+    sequence
+}
+
 /// What files of one sequence share: everything but the number.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Name {

@@ -16,14 +16,82 @@ pub fn effective(flags: &Options, file: Option<&Path>) -> Result<Options, Error>
     if let Some(path) = file {
         overlay(&mut table, &read(path)?).map_err(|problem| in_file(path, &problem))?;
     }
-    overlay(&mut table, flags).map_err(Error::usage)?;
+    finish(table, flags)
+}
+
+/// Options with a layer more on top.
+///
+/// # Errors
+/// A value outside its range, or options that exclude each other.
+pub fn change(options: &Options, layer: &Options) -> Result<Options, Error> {
+    finish(Table::try_from(options)?, layer)
+}
+
+fn finish(mut table: Table, layer: &Options) -> Result<Options, Error> {
+    overlay(&mut table, layer).map_err(Error::usage)?;
     limits::check(&table)?;
     table.try_into().map_err(|error: toml::de::Error| Error::Text(error.message().into()))
 }
 
+/// The fewest options that make these of the defaults.
+pub fn difference(options: &Options) -> Result<Table, Error> {
+    let target = Table::try_from(options)?;
+    let mut layer = Table::new();
+    // An option in the layer may imply others that then have to be in it too.
+    loop {
+        let given: Options =
+            layer.clone().try_into().map_err(|error: toml::de::Error| Error::Text(error.to_string()))?;
+        let mut made = Table::try_from(Options::defaults())?;
+        overlay(&mut made, &given).map_err(Error::usage)?;
+        let missing: Vec<_> = target.iter().filter(|(key, value)| made.get(*key) != Some(value)).collect();
+        if missing.is_empty() || missing.iter().all(|(key, _)| layer.contains_key(*key)) {
+            return Ok(layer);
+        }
+        layer.extend(missing.into_iter().map(|(key, value)| (key.clone(), value.clone())));
+    }
+}
+
+/// The same as flags of a command line.
+pub fn flags(options: &Options) -> Result<Vec<String>, Error> {
+    let mut flags = Vec::new();
+    for (key, value) in difference(options)? {
+        match value {
+            Value::Array(values) if values.iter().all(Value::is_str) => {
+                flags.extend(values.iter().map(|value| format!("--{key}={}", as_flag(value))));
+            }
+            value => flags.push(format!("--{key}={}", as_flag(&value))),
+        }
+    }
+    Ok(flags)
+}
+
+/// What there is to know of an option.
+#[derive(Clone, Debug)]
+pub struct About {
+    /// Its key.
+    pub name: String,
+    /// Heading under which `--help` lists it; empty for files and the like.
+    pub group: String,
+    /// What it does, with its range and default.
+    pub help: String,
+    /// The names it can have; none: it is no choice.
+    pub choices: Vec<String>,
+}
+
+/// All options, in the order of `--help`.
+pub fn about() -> Vec<About> {
+    let about = |argument: &clap::Arg| About {
+        name: argument.get_id().as_str().replace('_', "-"),
+        group: argument.get_help_heading().unwrap_or_default().to_owned(),
+        help: argument.get_help().map(ToString::to_string).unwrap_or_default(),
+        choices: argument.get_possible_values().iter().map(|value| value.get_name().to_owned()).collect(),
+    };
+    described().get_arguments().map(about).collect()
+}
+
 /// Puts a layer over those below. What its choices imply goes under it, but over what is below: `--quality draft` wins
 /// over a scale in the file, and a scale on the command line wins over both.
-pub fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
+fn overlay(table: &mut Table, layer: &Options) -> Result<(), String> {
     let as_table = |options: &Options| Table::try_from(options).map_err(|error| error.to_string());
     let below: Options = table.clone().try_into().map_err(|error: toml::de::Error| error.message().to_owned())?;
     if let Some(name) = &layer.look {
@@ -61,6 +129,14 @@ pub fn parse(text: &str) -> Result<Options, String> {
         let line = text.lines().nth(index).unwrap_or_default().trim();
         format!("line {}, \"{line}\": {}", index + 1, error.message())
     })
+}
+
+/// Options of a file's text, on top of the defaults.
+///
+/// # Errors
+/// What is wrong with the text, and on which line.
+pub fn of_text(text: &str) -> Result<Options, Error> {
+    change(&Options::defaults(), &parse(text).map_err(Error::usage)?)
 }
 
 /// A configuration as a file that [`read`] takes, each key explained.
@@ -209,6 +285,22 @@ mod tests {
             expected.insert("specular".into(), Value::Float(0.25));
             assert_eq!(with(layers), expected);
         }
+    }
+
+    #[test]
+    fn the_difference_from_the_defaults_makes_the_same_options() {
+        for text in [
+            "",
+            "filter = \"bilateral\"\nstrength = 0.8",
+            "ortho = 2.0\nquality = \"draft\"\nthickness-scale = 2",
+            "look = \"milk\"\nspecular = 0.25\nanisotropy = \"off\"",
+        ] {
+            let options = of_text(text).unwrap();
+            let layer = difference(&options).unwrap();
+            assert!(layer.len() < 25, "{layer}");
+            assert_eq!(of_text(&layer.to_string()).unwrap(), options, "{text}");
+        }
+        assert!(difference(&Options::defaults()).unwrap().is_empty());
     }
 
     #[test]

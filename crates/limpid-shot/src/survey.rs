@@ -22,31 +22,57 @@ pub struct Survey {
     pub warnings: Vec<String>,
     /// Radius, from the frame with the most particles, the best to estimate one from; None without particles.
     radius: Option<Radius>,
+    /// The same where no option says otherwise, once it has been asked for.
+    own_radius: Option<Radius>,
     /// That frame.
     largest: Option<Arc<ParticleSet>>,
 }
 
 impl Survey {
-    /// Takes a frame into account.
-    pub fn include(&mut self, set: &Arc<ParticleSet>, options: &Options) {
-        self.warnings.extend(oddities(set, options));
-        self.bounds = union(self.bounds, Bounds::robust(world_positions(set)));
-        self.extent = union(self.extent, extent_of(set));
-        if self.largest.as_ref().is_none_or(|largest| set.len() > largest.len()) {
-            self.largest = Some(Arc::clone(set));
+    /// Of one frame.
+    pub fn of(set: &Arc<ParticleSet>, options: &Options) -> Self {
+        Self {
+            bounds: Bounds::robust(world_positions(set)),
+            extent: extent_of(set),
+            warnings: oddities(set, options),
+            largest: Some(Arc::clone(set)),
+            ..Self::default()
         }
     }
 
-    /// Decides on the radius by the frames so far.
+    /// Takes a frame into account.
+    pub fn include(&mut self, set: &Arc<ParticleSet>, options: &Options) {
+        self.merge(Self::of(set, options));
+    }
+
+    /// Takes other frames into account.
+    pub fn merge(&mut self, other: Self) {
+        let count = |survey: &Self| survey.largest.as_ref().map(|set| set.len());
+        if count(&other) > count(self) {
+            (self.largest, self.own_radius) = (other.largest, other.own_radius);
+        }
+        self.warnings.extend(other.warnings);
+        self.bounds = union(self.bounds, other.bounds);
+        self.extent = union(self.extent, other.extent);
+    }
+
+    /// Decides on the radius by the frames so far. What the files alone say of it is worked out once for each largest frame.
     ///
     /// # Errors
     /// There is no radius, or one that cannot belong to these particles.
     pub fn settle(&mut self, options: &Options) -> Result<(), Error> {
-        let occupied = self.largest.as_ref().filter(|set| !set.is_empty());
-        self.radius = occupied.map(|set| set.radius(options.radius)).transpose()?;
-        if let (Some(set), Some(value), Some(extent)) = (occupied, options.radius, self.extent) {
-            check_radius(value, extent, set)?;
+        let Some(set) = self.largest.as_ref().filter(|set| !set.is_empty()) else {
+            self.radius = None;
+            return Ok(());
+        };
+        if let (Some(value), Some(extent)) = (options.radius, self.extent) {
+            self.radius = Some(set.radius(options.radius)?);
+            return check_radius(value, extent, set);
         }
+        if self.own_radius.is_none() {
+            self.own_radius = Some(set.radius(None)?);
+        }
+        self.radius = self.own_radius;
         Ok(())
     }
 

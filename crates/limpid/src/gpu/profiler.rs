@@ -1,5 +1,7 @@
 //! GPU time of each pass by timestamp queries.
 
+use std::sync::mpsc::Receiver;
+
 const MAX_PASSES: u32 = 512;
 
 /// GPU time of one pass.
@@ -21,6 +23,7 @@ pub struct Profiler {
     readable: wgpu::Buffer,
     names: Vec<String>,
     ns_per_tick: f64,
+    arrival: Option<Receiver<bool>>,
 }
 
 impl Profiler {
@@ -47,6 +50,7 @@ impl Profiler {
             readable: buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
             names: Vec::new(),
             ns_per_tick: f64::from(queue.get_timestamp_period()),
+            arrival: None,
         })
     }
 
@@ -88,19 +92,37 @@ impl Profiler {
         }
     }
 
-    /// Waits for the submitted frame and returns the time of each pass in the order they ran, clears and copies before it
+    /// Asks for the times, after the frame has been submitted.
+    pub fn start(&mut self) {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        let bytes = self.bytes();
+        if bytes > 0 {
+            // Nobody listens any more: then nobody wants them.
+            self.readable.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
+                let _ = sender.send(result.is_ok());
+            });
+            self.arrival = Some(receiver);
+        }
+    }
+
+    /// Waits for the submitted frame and returns the time of each pass as [`Profiler::arrived`] does.
+    pub fn read(&mut self, device: &wgpu::Device) -> Vec<PassTime> {
+        self.start();
+        // A failure shows as times of 0.
+        let _ = device.poll(wgpu::PollType::wait_indefinitely());
+        self.arrived().unwrap_or_default()
+    }
+
+    /// The time of each pass in the order they ran, once it is there, clears and copies before it
     /// included: from the end of the one before to its own end, so that they add up to the frame. (Some drivers take the
     /// timestamp at a pass's begin too late.) Starts over for the next frame.
-    pub fn read(&mut self, device: &wgpu::Device) -> Vec<PassTime> {
-        let count = 2 * self.names.len();
-        if count == 0 {
-            return Vec::new();
-        }
-        self.readable.map_async(wgpu::MapMode::Read, 0..count as u64 * 8, |_| {});
-        let waited = device.poll(wgpu::PollType::wait_indefinitely());
-        let ticks: Vec<u64> = match (waited, self.readable.get_mapped_range(0..count as u64 * 8)) {
-            (Ok(_), Ok(bytes)) => bytemuck::pod_collect_to_vec(&bytes),
-            _ => vec![0; count],
+    pub fn arrived(&mut self) -> Option<Vec<PassTime>> {
+        let is_mapped = self.arrival.as_ref()?.try_recv().ok()?;
+        self.arrival = None;
+        let bytes = self.bytes();
+        let ticks: Vec<u64> = match self.readable.get_mapped_range(0..bytes) {
+            Ok(bytes) if is_mapped => bytemuck::pod_collect_to_vec(&bytes),
+            _ => vec![0; 2 * self.names.len()],
         };
         self.readable.unmap();
         let mut passes: Vec<PassTime> = Vec::new();
@@ -113,6 +135,10 @@ impl Profiler {
                 None => passes.push(PassTime { name, ms }),
             }
         }
-        passes
+        Some(passes)
+    }
+
+    fn bytes(&self) -> u64 {
+        2 * 8 * self.names.len() as u64
     }
 }
