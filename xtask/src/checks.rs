@@ -3,7 +3,7 @@
 //! All of it runs in the release profile: the tests render real frames, and demo and tests share one build of wgpu.
 
 use crate::shell::{Result, cargo, run, steps};
-use crate::{data, driver, toolchain};
+use crate::{data, driver, toolchain, web};
 
 /// Everything.
 pub fn everything() -> Result {
@@ -13,9 +13,10 @@ pub fn everything() -> Result {
         ("size of the data", data::check_size),
         ("format", format),
         ("lints", lints),
+        ("browser and display", web::ensure_browser),
+        ("web page", web::build),
         ("tests and documentation's examples", tests),
         ("documentation", documentation),
-        ("library on WebAssembly", webassembly),
     ])
 }
 
@@ -49,9 +50,4 @@ fn unit_tests() -> Result {
 /// Libraries only: the program `limpid` and the library `limpid` would write to the same pages.
 fn documentation() -> Result {
     run(cargo().args(["doc", "--release", "--workspace", "--lib", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
-}
-
-fn webassembly() -> Result {
-    toolchain::ensure_webassembly()?;
-    run(cargo().args(["check", "--release", "--package", "limpid", "--target", toolchain::WEBASSEMBLY]))
 }

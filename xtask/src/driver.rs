@@ -1,6 +1,7 @@
 //! A Vulkan driver, for machines that have none: Mesa's lavapipe, which runs on the CPU.
 
-use crate::shell::{Result, output, succeeds};
+use crate::apt;
+use crate::shell::{Result, succeeds};
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,9 @@ pub fn ensure() -> Result {
     }
     let manager = PACKAGES.iter().find(|(program, _)| succeeds(Command::new(program).arg("--version")));
     match manager {
-        Some(("apt-get", by_hand)) => install_with_apt(by_hand)?,
+        Some(("apt-get", by_hand)) => {
+            apt::install("Vulkan driver", &["mesa-vulkan-drivers", "libvulkan1"], by_hand)?;
+        }
         Some((_, by_hand)) => return Err(format!("there is no Vulkan driver; as root: {by_hand}")),
         None => return Err("there is no Vulkan driver; install Mesa's lavapipe and the Vulkan loader".into()),
     }
@@ -77,26 +80,4 @@ fn paths(variable: &str) -> Vec<PathBuf> {
 
 fn files_in(folder: &Path) -> Vec<PathBuf> {
     fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
-}
-
-fn install_with_apt(by_hand: &str) -> Result {
-    let root = succeeds(Command::new("test").args(["-w", "/var/lib/dpkg"]));
-    if !root && !succeeds(Command::new("sudo").args(["-n", "true"])) {
-        return Err(format!("there is no Vulkan driver; as root: {by_hand}"));
-    }
-    let apt = |arguments: &[&str]| {
-        // Through env, because sudo drops the caller's variables.
-        let words = ["DEBIAN_FRONTEND=noninteractive", "apt-get"];
-        let mut command = Command::new(if root { "env" } else { "sudo" });
-        command.args(if root { &[][..] } else { &["-n", "env"] }).args(words).args(arguments);
-        output(&mut command)
-    };
-    println!("There is no Vulkan driver: installing Mesa's (mesa-vulkan-drivers, libvulkan1)");
-    if let Err(reason) = apt(&["update"]) {
-        eprintln!("{reason}; going on with the package lists at hand");
-    }
-    let packages = ["mesa-vulkan-drivers", "libvulkan1"];
-    apt(&[&["install", "-y", "--no-install-recommends"][..], &packages].concat())
-        .map(drop)
-        .map_err(|reason| format!("{reason}; as root: {by_hand}"))
 }

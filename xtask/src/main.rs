@@ -1,5 +1,6 @@
 //! Set-up, demo and checks of this repository. `cargo xtask` lists the verbs.
 
+mod apt;
 mod checks;
 mod data;
 mod demo;
@@ -10,6 +11,7 @@ mod golden;
 mod shell;
 mod shots;
 mod toolchain;
+mod web;
 
 use std::process::ExitCode;
 
@@ -17,14 +19,17 @@ const HELP: &str = "\
 Usage: cargo xtask VERB
 
   demo              render the particle data of this repository to pictures in out/demo
-  test              everything: format, lints, tests, docs, WebAssembly, size of the data
+  test              everything: format, lints, tests, docs, the web page in a browser, size of the data
   check             the quick part of it: format, lints, tests that need no GPU
+  web               build the viewer's page in out/web
+  web --serve       and serve it at http://localhost:8080
   figures           render the comparison pictures of docs/filters.md
   gallery           render the other pictures of docs
   golden            compare with the golden pictures
   golden --accept   make what is rendered now the golden pictures
 
-demo, test and golden install a Vulkan driver (Mesa's CPU driver) where there is none and apt-get can.
+demo, test and golden install a Vulkan driver (Mesa's CPU driver) where there is none and apt-get can; test installs Chromium
+and Xvfb in the same way.
 ";
 
 fn main() -> ExitCode {
@@ -34,6 +39,8 @@ fn main() -> ExitCode {
         ["demo"] => demo::render_all(),
         ["test"] => checks::everything(),
         ["check"] => checks::quick(),
+        ["web"] => web::build(),
+        ["web", "--serve"] => web::serve(),
         ["figures"] => figures::render_all(),
         ["gallery"] => gallery::render_all(),
         ["golden"] => golden::compare(),

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::info::InfoArguments;
 use crate::render::RenderArguments;
+use crate::view::ViewArguments;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use limpid_shot::config::describe_options;
@@ -21,6 +22,8 @@ struct Cli {
 pub enum Command {
     /// Render particle files to pictures
     Render(Box<RenderArguments>),
+    /// Show particle files in a window, with every setting live
+    View(Box<ViewArguments>),
     /// Say what particle files hold
     Info(InfoArguments),
     /// List the looks that --look knows, or print one as a file to copy and change
@@ -43,7 +46,7 @@ pub enum Parsed {
 
 /// Reads the command line.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, Failure> {
-    let command = Cli::command().mut_subcommand("render", describe_options);
+    let command = Cli::command().mut_subcommand("render", describe_options).mut_subcommand("view", describe_options);
     let parsed = command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches));
     match parsed {
         Ok(cli) => Ok(Parsed::Command(cli.command)),

@@ -46,6 +46,9 @@ pub enum Failure {
     /// Standard output cannot be written.
     #[error("standard output cannot be written ({0})")]
     Stdout(io::Error),
+    /// The viewer's window cannot be shown.
+    #[error("{0}")]
+    Window(String),
     /// Values that cannot be turned into JSON or TOML.
     #[error("cannot be written as text: {0}")]
     Text(String),

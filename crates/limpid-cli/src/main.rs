@@ -9,6 +9,7 @@ mod info;
 mod looks;
 mod quiet_driver;
 mod render;
+mod view;
 mod write;
 
 use cli::{Command, Parsed};
@@ -30,6 +31,7 @@ fn run() -> Result<(), Failure> {
     match cli::parse(std::env::args_os())? {
         Parsed::Text(text) => console::print(&text),
         Parsed::Command(Command::Render(arguments)) => render::run(arguments),
+        Parsed::Command(Command::View(arguments)) => view::run(arguments),
         Parsed::Command(Command::Info(arguments)) => info::run(&arguments),
         Parsed::Command(Command::Looks { name }) => looks::run(name.as_deref()),
         Parsed::Command(Command::Adapters) => adapters::run(),

@@ -18,6 +18,7 @@ pub use offscreen::Offscreen;
 pub use painter::Painter;
 pub use peek::Peek;
 pub use readback::Download;
+pub use samples::{mean_of, sample_offset_px};
 pub use shot::{Background, MOST_SAMPLES, Picture, Shot, Timings};
 
 /// What can go wrong without a window. Every message is one line that says what to do.

@@ -189,7 +189,8 @@ impl Offscreen {
 
     /// One value of the layers at every pixel of the picture.
     fn read_layers(&self, shot: &Shot<'_>, aov: Aov) -> Result<Vec<f32>, Error> {
-        let (Some(layers), Some(buffers)) = (self.painter.renderer().layers(), self.painter.renderer().buffers()) else {
+        let (Some(layers), Some(buffers)) = (self.painter.renderer().layers(), self.painter.renderer().buffers())
+        else {
             return Ok(vec![0.0; shot.size[0] as usize * shot.size[1] as usize]);
         };
         let [width, height] = shot.size.map(|n| n as usize);

@@ -6,7 +6,7 @@ use crate::{Aov, Image, Picture};
 /// Where sample `index` lies in the pixel, from its centre, -0.5 to 0.5 pixels to the right and downwards; the first is the
 /// centre. Additive recurrence by the plastic number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"):
 /// even for any number of samples.
-pub(crate) fn sample_offset_px(index: u32) -> [f64; 2] {
+pub fn sample_offset_px(index: u32) -> [f64; 2] {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + f64::from(index) * step).fract() - 0.5)
 }
@@ -52,6 +52,15 @@ impl Mean {
         }
         self.first
     }
+}
+
+/// The mean of sRGB pictures with straight alpha of one size, as [`crate::Offscreen::render`] takes it of its samples.
+pub fn mean_of(size: [u32; 2], pictures: Vec<Vec<u8>>) -> Vec<u8> {
+    let mut pictures = pictures.into_iter().map(|rgba| Picture { size, rgba, aovs: Vec::new() });
+    let Some(first) = pictures.next() else { return Vec::new() };
+    let mut mean = Mean::of(first);
+    pictures.for_each(|picture| mean.add(&picture, &[], &[]));
+    mean.picture(&[]).rgba
 }
 
 /// Whether the mean over a pixel is what the pixel shows.

@@ -1,0 +1,129 @@
+//! The face of limpid for other pages: particles from an array, drawn on a canvas.
+
+use limpid_headless::{Painter, device_descriptor};
+use limpid_io::ParticleSet;
+use limpid_shot::{FrameParticles, Options, Props, Size, Stage, Survey, config};
+use std::sync::Arc;
+use wasm_bindgen::prelude::*;
+
+/// A fluid on a canvas: create, give it particles, draw.
+#[wasm_bindgen]
+pub struct Fluid {
+    canvas: web_sys::HtmlCanvasElement,
+    surface: wgpu::Surface<'static>,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    painter: Painter,
+    blitter: wgpu::util::TextureBlitter,
+    format: wgpu::TextureFormat,
+    options: Options,
+    particles: Option<(Arc<ParticleSet>, Survey)>,
+    size: [u32; 2],
+}
+
+#[wasm_bindgen]
+impl Fluid {
+    /// Opens a WebGPU device for a canvas. Rejects where the browser has none.
+    pub async fn create(canvas: web_sys::HtmlCanvasElement) -> Result<Fluid, JsError> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
+        let instance = wgpu::Instance::new(descriptor);
+        let surface = instance.create_surface(wgpu::SurfaceTarget::Canvas(canvas.clone()))?;
+        let request = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
+        let adapter = instance.request_adapter(&request).await?;
+        let (device, queue) = adapter.request_device(&device_descriptor(&adapter)).await?;
+        let capabilities = surface.get_capabilities(&adapter);
+        let format = capabilities.formats.first().copied().ok_or_else(|| JsError::new("the canvas has no format"))?;
+        let painter = Painter::new(&device, &queue);
+        let blitter = wgpu::util::TextureBlitter::new(&device, format);
+        let options = Options::defaults();
+        let (particles, size) = (None, [0; 2]);
+        Ok(Self { canvas, surface, device, queue, painter, blitter, format, options, particles, size })
+    }
+
+    /// The particles: x, y, z of each in world units, and the radius of all (half their spacing at rest); without it, it is
+    /// estimated. Fails for numbers that are not finite.
+    #[wasm_bindgen(js_name = setParticles)]
+    pub fn set_particles(&mut self, positions: &[f32], radius: Option<f64>) -> Result<(), JsError> {
+        let bytes = pos_file(positions, radius);
+        let set = Arc::new(limpid_io::read_bytes(std::path::Path::new("particles.pos"), bytes.into())?);
+        let survey = Survey::of(&set, &Options::default());
+        self.particles = Some((set, survey));
+        Ok(())
+    }
+
+    /// Where the camera is and what it looks at, world units; without one, it frames the fluid.
+    #[wasm_bindgen(js_name = setCamera)]
+    pub fn set_camera(&mut self, eye: &[f64], target: &[f64]) -> Result<(), JsError> {
+        let triple = |v: &[f64]| <[f64; 3]>::try_from(v).map_err(|_| JsError::new("eye and target are three numbers"));
+        let layer =
+            Options { camera_eye: Some(triple(eye)?), camera_target: Some(triple(target)?), ..Options::default() };
+        self.options = config::change(&self.options, &layer)?;
+        Ok(())
+    }
+
+    /// Changes settings: TOML with the keys of `limpid render --config`, over those so far.
+    pub fn set(&mut self, toml: &str) -> Result<(), JsError> {
+        let layer = config::parse(toml).map_err(|problem| JsError::new(&problem))?;
+        self.options = config::change(&self.options, &layer)?;
+        Ok(())
+    }
+
+    /// Draws on the canvas, in as many pixels as it has (its attributes width and height).
+    pub fn draw(&mut self) -> Result<(), JsError> {
+        let Some((set, survey)) = &mut self.particles else { return Ok(()) };
+        let size = [self.canvas.width().max(1), self.canvas.height().max(1)];
+        if self.size != size {
+            self.surface.configure(
+                &self.device,
+                &wgpu::SurfaceConfiguration {
+                    usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                    format: self.format,
+                    color_space: Default::default(),
+                    width: size[0],
+                    height: size[1],
+                    present_mode: wgpu::PresentMode::AutoVsync,
+                    desired_maximum_frame_latency: 2,
+                    alpha_mode: wgpu::CompositeAlphaMode::Auto,
+                    view_formats: Vec::new(),
+                },
+            );
+            self.size = size;
+        }
+        let options = Options { size: Some(Size(size)), ..self.options.clone() };
+        survey.settle(&options)?;
+        let stage = Stage::of(&options, survey, &Props::default())?;
+        let frame = FrameParticles::of(Arc::clone(set), survey)?;
+        let shot = stage.shot(&options, &frame, &[]);
+        let particles = Painter::upload(&self.device, &self.queue, &shot)?;
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        self.painter.draw(&self.device, &self.queue, &mut encoder, &shot, &particles)?;
+        let target = match self.surface.get_current_texture() {
+            wgpu::CurrentSurfaceTexture::Success(target) | wgpu::CurrentSurfaceTexture::Suboptimal(target) => target,
+            _ => return Err(JsError::new("the canvas cannot be drawn on now: draw again at the next animation frame")),
+        };
+        if let Some(shown) = self.painter.shown() {
+            // The bytes as they are: the canvas is encoded for the screen too.
+            let raw = wgpu::TextureViewDescriptor {
+                format: Some(Painter::SHOWN_RAW),
+                usage: Some(wgpu::TextureUsages::TEXTURE_BINDING),
+                ..Default::default()
+            };
+            let to = target.texture.create_view(&Default::default());
+            self.blitter.copy(&self.device, &mut encoder, &shown.create_view(&raw), &to);
+        }
+        self.queue.submit([encoder.finish()]);
+        self.queue.present(target);
+        Ok(())
+    }
+}
+
+/// As limpid's own readers have them: the checks are theirs.
+fn pos_file(positions: &[f32], radius: Option<f64>) -> Vec<u8> {
+    let count = (positions.len() / 3) as u32;
+    let mut bytes = Vec::with_capacity(8 + 4 * positions.len());
+    bytes.extend(count.to_le_bytes());
+    bytes.extend((radius.unwrap_or(0.0) as f32).to_le_bytes());
+    positions[..3 * count as usize].iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+    bytes
+}

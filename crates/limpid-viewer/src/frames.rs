@@ -1,0 +1,269 @@
+//! The frames of a sequence: read one by one beside the drawing, kept as long as there is room.
+
+use limpid_io::{Frame, ParticleSet};
+use limpid_shot::{Options, Survey};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Particles that are kept in memory at most, of all frames together.
+const MOST_KEPT: usize = if cfg!(target_arch = "wasm32") { 10_000_000 } else { 50_000_000 };
+
+/// A file of particles.
+#[derive(Clone)]
+#[cfg_attr(not(target_arch = "wasm32"), expect(dead_code, reason = "windows get paths"))]
+pub enum Source {
+    /// On the disk.
+    Path(PathBuf),
+    /// In memory: browsers give no paths.
+    Bytes(PathBuf, Arc<[u8]>),
+}
+
+impl Source {
+    fn path(&self) -> &PathBuf {
+        match self {
+            Self::Path(path) | Self::Bytes(path, _) => path,
+        }
+    }
+}
+
+enum State {
+    /// Not read yet, or dropped again to make room.
+    Absent,
+    Ready(Arc<ParticleSet>),
+    Failed,
+}
+
+struct Entry {
+    frame: Frame,
+    source: Source,
+    state: State,
+    is_surveyed: bool,
+}
+
+/// What reading a file gives.
+struct Loaded {
+    index: usize,
+    outcome: Result<(Arc<ParticleSet>, Option<Survey>), String>,
+}
+
+/// A sequence of frames.
+pub struct Frames {
+    entries: Vec<Entry>,
+    survey: Survey,
+    /// Counts what is new to the survey.
+    pub version: u64,
+    reader: Reader,
+    busy: Option<usize>,
+    /// What has gone wrong since the last look.
+    pub problems: Vec<String>,
+}
+
+impl Frames {
+    /// Files in the order of their numbers; `wake` is called when one has been read.
+    pub fn new(files: Vec<(Frame, Source)>, wake: impl Fn() + Send + 'static) -> Self {
+        let entry = |(frame, source)| Entry { frame, source, state: State::Absent, is_surveyed: false };
+        Self {
+            entries: files.into_iter().map(entry).collect(),
+            survey: Survey::default(),
+            version: 0,
+            reader: Reader::new(wake),
+            busy: None,
+            problems: Vec::new(),
+        }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// A frame's file and number.
+    pub fn frame(&self, index: usize) -> Option<&Frame> {
+        self.entries.get(index).map(|entry| &entry.frame)
+    }
+
+    /// All of them.
+    pub fn list(&self) -> Vec<Frame> {
+        self.entries.iter().map(|entry| entry.frame.clone()).collect()
+    }
+
+    /// How many have been looked through.
+    pub fn surveyed(&self) -> usize {
+        self.entries.iter().filter(|entry| entry.is_surveyed).count()
+    }
+
+    /// What is known of all so far.
+    pub fn survey(&mut self) -> &mut Survey {
+        &mut self.survey
+    }
+
+    /// The particles of a frame, if they are there.
+    pub fn ready(&self, index: usize) -> Option<&Arc<ParticleSet>> {
+        match &self.entries.get(index)?.state {
+            State::Ready(set) => Some(set),
+            State::Absent | State::Failed => None,
+        }
+    }
+
+    /// Whether a frame's file is no use.
+    pub fn has_failed(&self, index: usize) -> bool {
+        self.entries.get(index).is_some_and(|entry| matches!(entry.state, State::Failed))
+    }
+
+    /// Takes what has been read, and asks for what is wanted next: the current frame, those after it, then the others.
+    pub fn advance(&mut self, current: usize) {
+        while let Some(Loaded { index, outcome }) = self.reader.take() {
+            self.busy = None;
+            let Some(entry) = self.entries.get_mut(index) else { continue };
+            match outcome {
+                Ok((set, survey)) => {
+                    entry.state = State::Ready(set);
+                    if let Some(survey) = survey {
+                        entry.is_surveyed = true;
+                        self.survey.merge(survey);
+                        self.problems.append(&mut self.survey.warnings);
+                        self.version += 1;
+                    }
+                }
+                Err(problem) => {
+                    entry.state = State::Failed;
+                    entry.is_surveyed = true;
+                    self.problems.push(problem);
+                    self.version += 1;
+                }
+            }
+            self.make_room(current);
+        }
+        if self.busy.is_none()
+            && let Some(index) = self.wanted(current)
+        {
+            let entry = &self.entries[index];
+            self.busy = Some(index);
+            self.reader.ask(index, entry.source.clone(), !entry.is_surveyed);
+        }
+    }
+
+    /// Whether something is being read.
+    pub fn is_reading(&self) -> bool {
+        self.busy.is_some()
+    }
+
+    fn wanted(&self, current: usize) -> Option<usize> {
+        let count = self.entries.len();
+        let order = || (0..count).map(|step| (current + step) % count);
+        let absent = |index: &usize| matches!(self.entries[*index].state, State::Absent);
+        let kept: usize = self.kept();
+        let average = kept / self.entries.iter().filter(|e| matches!(e.state, State::Ready(_))).count().max(1);
+        let has_room = kept + average <= MOST_KEPT;
+        order()
+            .take(1)
+            .find(absent)
+            .or_else(|| order().find(|index| absent(index) && (has_room || !self.entries[*index].is_surveyed)))
+    }
+
+    fn kept(&self) -> usize {
+        (0..self.entries.len()).filter_map(|index| self.ready(index)).map(|set| set.len()).sum()
+    }
+
+    /// Lets go of the frames that are farthest ahead.
+    fn make_room(&mut self, current: usize) {
+        let count = self.entries.len();
+        let mut kept = self.kept();
+        for step in (1..count).rev() {
+            if kept <= MOST_KEPT {
+                return;
+            }
+            let index = (current + step) % count;
+            if let Some(set) = self.ready(index) {
+                kept -= set.len();
+                self.entries[index].state = State::Absent;
+            }
+        }
+    }
+}
+
+/// Reads a file and what the survey needs of it.
+fn read(index: usize, source: &Source, is_new: bool) -> Loaded {
+    let set = match source {
+        Source::Path(path) => limpid_io::read(path),
+        Source::Bytes(path, bytes) => limpid_io::read_bytes(path, Arc::clone(bytes)),
+    };
+    let outcome = set.map_err(|error| error.to_string()).map(|set| {
+        let set = Arc::new(set);
+        let survey = is_new.then(|| {
+            let mut survey = Survey::of(&set, &Options::default());
+            // No radius is no fault of this frame alone: it is asked for again where it is needed.
+            let _ = survey.settle(&Options::default());
+            survey
+        });
+        (set, survey)
+    });
+    Loaded { index, outcome }
+}
+
+/// A thread that reads.
+#[cfg(not(target_arch = "wasm32"))]
+struct Reader {
+    ask: std::sync::mpsc::Sender<(usize, Source, bool)>,
+    answers: std::sync::mpsc::Receiver<Loaded>,
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl Reader {
+    fn new(wake: impl Fn() + Send + 'static) -> Self {
+        let (ask, questions) = std::sync::mpsc::channel::<(usize, Source, bool)>();
+        let (answer, answers) = std::sync::mpsc::channel();
+        // Ends when either side of the channels does.
+        std::thread::spawn(move || {
+            for (index, source, is_new) in questions {
+                if answer.send(read(index, &source, is_new)).is_err() {
+                    return;
+                }
+                wake();
+            }
+        });
+        Self { ask, answers }
+    }
+
+    fn ask(&mut self, index: usize, source: Source, is_new: bool) {
+        // The thread lives as long as this does.
+        let _ = self.ask.send((index, source, is_new));
+    }
+
+    fn take(&mut self) -> Option<Loaded> {
+        self.answers.try_recv().ok()
+    }
+}
+
+/// Browsers have one thread: a file is read between two pictures.
+#[cfg(target_arch = "wasm32")]
+struct Reader {
+    wake: Box<dyn Fn()>,
+    asked: Option<(usize, Source, bool)>,
+}
+
+#[cfg(target_arch = "wasm32")]
+impl Reader {
+    fn new(wake: impl Fn() + Send + 'static) -> Self {
+        Self { wake: Box::new(wake), asked: None }
+    }
+
+    fn ask(&mut self, index: usize, source: Source, is_new: bool) {
+        self.asked = Some((index, source, is_new));
+        (self.wake)();
+    }
+
+    fn take(&mut self) -> Option<Loaded> {
+        let (index, source, is_new) = self.asked.take()?;
+        (self.wake)();
+        Some(read(index, &source, is_new))
+    }
+}
+
+/// Files by name as a sequence.
+pub fn in_order(sources: Vec<Source>) -> (Vec<(Frame, Source)>, Vec<String>) {
+    let sequence = limpid_io::in_order(sources.iter().map(|source| source.path().clone()).collect());
+    let source = |frame: &Frame| sources.iter().find(|source| *source.path() == frame.path).cloned();
+    let files = sequence.frames.iter().filter_map(|frame| Some((frame.clone(), source(frame)?))).collect();
+    (files, sequence.warnings)
+}

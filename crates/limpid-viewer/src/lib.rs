@@ -1,0 +1,29 @@
+//! The viewer: particles as a liquid, live, in a window or on a web page.
+//!
+//! Both are one application ([`app`]); what differs is how files come in and go out ([`native`], [`web`]). Options, defaults
+//! and drawing are those of `limpid render`: the settings saved here make the same picture there.
+
+mod app;
+mod book;
+mod camera;
+mod controls;
+mod desk;
+mod frames;
+mod link;
+mod picture;
+mod save;
+mod times;
+
+#[cfg(target_arch = "wasm32")]
+mod fluid;
+#[cfg(not(target_arch = "wasm32"))]
+mod native;
+#[cfg(target_arch = "wasm32")]
+mod web;
+
+#[cfg(not(target_arch = "wasm32"))]
+pub use native::{Opening, run};
+#[cfg(not(target_arch = "wasm32"))]
+use native::{page_address, receive_dropped, show_address};
+#[cfg(target_arch = "wasm32")]
+use web::{page_address, receive_dropped, show_address};

@@ -1,0 +1,103 @@
+//! How long pictures and their passes take, as a live graph.
+
+use eframe::egui::{self, RichText, Ui, pos2, vec2};
+use limpid::PassTime;
+use std::collections::VecDeque;
+#[cfg(not(target_arch = "wasm32"))]
+use std::time::Instant;
+#[cfg(target_arch = "wasm32")]
+use web_time::Instant;
+
+/// Pictures in the graph.
+const HISTORY: usize = 120;
+/// Pictures over which the rate is taken.
+const COUNTED: usize = 20;
+
+/// The last times.
+#[derive(Default)]
+pub struct Times {
+    drawn: VecDeque<Instant>,
+    frames: VecDeque<f64>,
+    passes: Vec<PassTime>,
+}
+
+impl Times {
+    /// A picture has been drawn.
+    pub fn count(&mut self) {
+        self.drawn.push_back(Instant::now());
+        if self.drawn.len() > COUNTED {
+            self.drawn.pop_front();
+        }
+    }
+
+    /// Rate of the last pictures; None if they are long ago.
+    pub fn pictures_per_second(&self) -> Option<f64> {
+        let (first, last) = (self.drawn.front()?, self.drawn.back()?);
+        let seconds = (*last - *first).as_secs_f64();
+        let is_fresh = last.elapsed().as_secs_f64() < 2.0;
+        (is_fresh && seconds > 0.0).then(|| (self.drawn.len() - 1) as f64 / seconds)
+    }
+
+    /// The times of a picture's passes.
+    pub fn add(&mut self, passes: Vec<PassTime>) {
+        self.frames.push_back(passes.iter().map(|pass| pass.ms).sum());
+        if self.frames.len() > HISTORY {
+            self.frames.pop_front();
+        }
+        // Smoothed, so that the numbers can be read.
+        for pass in passes {
+            match self.passes.iter_mut().find(|known| known.name == pass.name) {
+                Some(known) => known.ms += 0.3 * (pass.ms - known.ms),
+                None => self.passes.push(pass),
+            }
+        }
+    }
+
+    /// The graph of frames, and a bar for each pass.
+    pub fn show(&self, ui: &mut Ui) {
+        egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.vertical(|ui| {
+                ui.set_width(230.0);
+                if self.passes.is_empty() {
+                    ui.label("No times yet: this device has no timestamps, or nothing was drawn since.");
+                    return;
+                }
+                let last = self.frames.back().copied().unwrap_or(0.0);
+                ui.label(RichText::new(format!("GPU {last:.1} ms")).strong());
+                self.graph(ui);
+                let longest = self.passes.iter().map(|pass| pass.ms).fold(1e-3, f64::max);
+                for pass in self.passes.iter().filter(|pass| pass.ms > 0.01 * longest) {
+                    ui.horizontal(|ui| {
+                        ui.spacing_mut().item_spacing.x = 4.0;
+                        let (rect, _) = ui.allocate_exact_size(vec2(48.0, 9.0), egui::Sense::hover());
+                        let mut bar = rect;
+                        bar.set_width(rect.width() * (pass.ms / longest) as f32);
+                        ui.painter().rect_filled(bar, 1.0, ui.visuals().selection.bg_fill);
+                        ui.add(egui::Label::new(RichText::new(format!("{:6.2}", pass.ms)).small().monospace()));
+                        ui.add(egui::Label::new(RichText::new(&pass.name).small()).truncate());
+                    });
+                }
+            });
+        });
+    }
+
+    fn graph(&self, ui: &mut Ui) {
+        let (rect, _) = ui.allocate_exact_size(vec2(230.0, 48.0), egui::Sense::hover());
+        let most = self.frames.iter().copied().fold(1e-3, f64::max);
+        let at = |(i, ms): (usize, &f64)| {
+            let x = rect.left() + rect.width() * i as f32 / (HISTORY - 1) as f32;
+            pos2(x, rect.bottom() - rect.height() * (ms / most) as f32)
+        };
+        ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
+        let line: Vec<_> = self.frames.iter().enumerate().map(at).collect();
+        ui.painter().line(line, egui::Stroke::new(1.5, ui.visuals().selection.bg_fill));
+        let font = egui::FontId::proportional(10.0);
+        ui.painter().text(
+            rect.left_top(),
+            egui::Align2::LEFT_TOP,
+            format!("{most:.0} ms"),
+            font,
+            ui.visuals().text_color(),
+        );
+    }
+}

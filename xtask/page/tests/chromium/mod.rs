@@ -1,0 +1,218 @@
+//! A headless Chromium, driven over its DevTools protocol.
+
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+use tungstenite::{Message, WebSocket};
+
+/// Longer than anything takes on a busy machine with SwiftShader.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// The server of a folder.
+pub struct Server {
+    process: Child,
+    port: u16,
+}
+
+impl Server {
+    pub fn of(folder: &Path) -> Self {
+        assert!(folder.join("index.html").is_file(), "there is no page: run `cargo xtask web` first");
+        // Port 0: whichever is free.
+        let mut process = Command::new(env!("CARGO_BIN_EXE_limpid-page"))
+            .args(["serve", folder.to_str().unwrap(), "0"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let port = line.split("localhost:").nth(1).unwrap().split('/').next().unwrap().parse().unwrap();
+        Self { process, port }
+    }
+
+    pub fn address(&self, rest: &str) -> String {
+        format!("http://localhost:{}/{rest}", self.port)
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// A browser with one page.
+pub struct Chromium {
+    process: Child,
+    profile: PathBuf,
+    socket: WebSocket<TcpStream>,
+    messages: u64,
+    errors: Vec<String>,
+}
+
+impl Chromium {
+    pub fn open(address: &str, with_webgpu: bool) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("limpid-chromium-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let profile = std::env::temp_dir().join(name);
+        let gpu: &[&str] = match with_webgpu {
+            true => &[
+                "--enable-unsafe-webgpu",
+                "--enable-features=Vulkan",
+                "--use-vulkan=swiftshader",
+                "--use-angle=swiftshader",
+            ],
+            false => &["--disable-gpu", "--disable-features=WebGPU", "--disable-blink-features=WebGPU"],
+        };
+        let mut process = Command::new(program())
+            .args(["--headless=new", "--no-sandbox", "--remote-debugging-port=0", "--window-size=1024,768"])
+            .args(gpu)
+            .arg(format!("--user-data-dir={}", profile.display()))
+            .arg("about:blank")
+            .stderr(Stdio::piped())
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("chromium starts");
+        let mut log = BufReader::new(process.stderr.take().unwrap());
+        let mut line = String::new();
+        while !line.contains("ws://") {
+            line.clear();
+            assert!(log.read_line(&mut line).unwrap() > 0, "chromium ended at once");
+        }
+        // Its log must go somewhere, or it stops.
+        std::thread::spawn(move || log.read_to_end(&mut Vec::new()));
+        let port: u16 = line.split("ws://").nth(1).unwrap().split(['/', ':']).nth(1).unwrap().parse().unwrap();
+        let socket = connect(port);
+        let mut page = Self { process, profile, socket, messages: 0, errors: Vec::new() };
+        for domain in ["Runtime.enable", "Log.enable", "Page.enable"] {
+            page.call(domain, json!({}));
+        }
+        page.call("Page.navigate", json!({ "url": address }));
+        page
+    }
+
+    /// Calls a method of the protocol.
+    pub fn call(&mut self, method: &str, parameters: Value) -> Value {
+        self.messages += 1;
+        let id = self.messages;
+        let message = json!({ "id": id, "method": method, "params": parameters });
+        self.socket.send(Message::text(message.to_string())).unwrap();
+        loop {
+            let Message::Text(text) = self.socket.read().unwrap() else { continue };
+            let answer: Value = serde_json::from_str(&text).unwrap();
+            self.note(&answer);
+            if answer["id"] == id {
+                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+                return answer["result"].clone();
+            }
+        }
+    }
+
+    fn note(&mut self, event: &Value) {
+        let is_error = match event["method"].as_str() {
+            Some("Runtime.exceptionThrown") => true,
+            Some("Runtime.consoleAPICalled") => event["params"]["type"] == "error",
+            Some("Log.entryAdded") => {
+                let entry = &event["params"]["entry"];
+                // Browsers ask for an icon by themselves.
+                entry["level"] == "error" && !entry["url"].as_str().unwrap_or_default().ends_with("favicon.ico")
+            }
+            _ => false,
+        };
+        if is_error {
+            self.errors.push(event["params"].to_string());
+        }
+    }
+
+    /// What a script comes to; promises are waited for.
+    pub fn run(&mut self, script: &str) -> Value {
+        let parameters = json!({ "expression": script, "awaitPromise": true, "returnByValue": true });
+        let result = self.call("Runtime.evaluate", parameters);
+        assert!(result["exceptionDetails"].is_null(), "{script}: {}", result["exceptionDetails"]);
+        result["result"]["value"].clone()
+    }
+
+    pub fn text(&mut self, script: &str) -> String {
+        self.run(script).as_str().unwrap_or_default().to_owned()
+    }
+
+    pub fn number(&mut self, script: &str) -> f64 {
+        self.run(script).as_f64().unwrap_or(f64::NAN)
+    }
+
+    /// Waits until a script comes to true.
+    pub fn wait(&mut self, condition: &str) {
+        let begin = Instant::now();
+        // A page that is not there yet has none of what is asked for.
+        while self.run(&format!("(() => {{ try {{ return !!({condition}) }} catch {{ return false }} }})()")) != true {
+            if begin.elapsed() > PATIENCE {
+                let status = self.run(
+                    "window.viewer && [viewer.frame, viewer.frames, viewer.drawn, viewer.isSettled, viewer.problems]",
+                );
+                panic!("never came true: {condition}; {status}; {:?}", self.errors);
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+
+    /// The picture that the viewer has drawn.
+    pub fn picture(&mut self) -> image::RgbImage {
+        self.run("viewer.grab()");
+        self.wait("viewer.png()");
+        let bytes = self.run("Array.from(viewer.png())");
+        let bytes: Vec<u8> = serde_json::from_value(bytes).unwrap();
+        image::load_from_memory(&bytes).unwrap().to_rgb8()
+    }
+
+    pub fn resize(&mut self, width: u32, height: u32) {
+        let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", size);
+    }
+
+    pub fn console_errors(&self) -> Vec<String> {
+        self.errors.clone()
+    }
+}
+
+impl Drop for Chromium {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        let _ = std::fs::remove_dir_all(&self.profile);
+    }
+}
+
+fn program() -> &'static str {
+    let runs =
+        |name: &&&str| Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    names.iter().find(runs).expect("there is no Chromium: apt-get install chromium")
+}
+
+/// Finds the page by the browser's list of them.
+fn connect(port: u16) -> WebSocket<TcpStream> {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    write!(stream, "GET /json HTTP/1.1\r\nHost: localhost:{port}\r\n\r\n").unwrap();
+    let mut answer = Vec::new();
+    // The connection stays open: the list is there when it can be read.
+    let pages: Value = loop {
+        let mut part = [0; 4096];
+        let count = stream.read(&mut part).unwrap();
+        assert!(count > 0, "{}", String::from_utf8_lossy(&answer));
+        answer.extend_from_slice(&part[..count]);
+        let text = String::from_utf8_lossy(&answer);
+        if let Some(list) = text.split_once("\r\n\r\n").and_then(|(_, body)| serde_json::from_str(body).ok()) {
+            break list;
+        }
+    };
+    let page = pages.as_array().unwrap().iter().find(|page| page["type"] == "page").expect("a page");
+    let address = page["webSocketDebuggerUrl"].as_str().unwrap();
+    let stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    tungstenite::client(address, stream).unwrap().0
+}
