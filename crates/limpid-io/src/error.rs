@@ -88,6 +88,16 @@ pub enum ReadError {
         /// The radius that was asked for.
         value: f64,
     },
+    /// An attribute that was asked for by name.
+    #[error("{}: has no attribute \"{name}\", only {names}", show(path))]
+    NoAttribute {
+        /// The file.
+        path: PathBuf,
+        /// The name that was asked for.
+        name: String,
+        /// The names there are.
+        names: String,
+    },
     /// An input that matches no particle file.
     #[error("{input}: no particle files found; {remedy}")]
     NoFrames {

@@ -18,6 +18,7 @@ mod pos;
 mod pvd;
 mod radius;
 mod raw;
+mod select;
 mod sequence;
 mod spacing;
 mod table;
@@ -33,6 +34,7 @@ pub use error::ReadError;
 pub use format::Format;
 pub use particles::{Attribute, Bounds, ParticleSet, PolygonMesh};
 pub use radius::{Radius, RadiusSource};
+pub use select::{Condition, Selection};
 pub use sequence::{Frame, Sequence, expand, in_order};
 pub use values::Values;
 

@@ -86,6 +86,25 @@ pub(crate) struct Name {
 type Groups = BTreeMap<Name, Vec<Frame>>;
 
 impl Sequence {
+    /// Keeps the frames whose numbers lie from `start` to `end`, and of those every `step`th, from the first. Files without
+    /// a number count from 1.
+    ///
+    /// # Errors
+    /// None is left.
+    pub fn select(&mut self, start: Option<u64>, end: Option<u64>, step: u64) -> Result<(), ReadError> {
+        let range = start.unwrap_or(0)..=end.unwrap_or(u64::MAX);
+        let all = self.frames.len();
+        let numbered = std::mem::take(&mut self.frames).into_iter().enumerate();
+        let within = numbered.filter(|(index, frame)| range.contains(&frame.number.unwrap_or(*index as u64 + 1)));
+        self.frames = within.map(|(_, frame)| frame).step_by(step.max(1) as usize).collect();
+        if self.frames.is_empty() {
+            let (start, end) = (range.start(), end.map_or("the last".into(), |end| end.to_string()));
+            let input = format!("frames {start} to {end}");
+            return Err(ReadError::NoFrames { input, remedy: format!("there are {all}, with other numbers") });
+        }
+        Ok(())
+    }
+
     /// Appends files that were given one by one.
     fn append_files(&mut self, files: &mut Vec<PathBuf>) {
         let named: Vec<_> = files.drain(..).map(split).collect();

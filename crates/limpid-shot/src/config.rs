@@ -190,7 +190,9 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 27] = [
+    const NOT_NUMBERS: [&str; 29] = [
+        "where",
+        "attribute",
         "layers",
         "caustics",
         "mesh",

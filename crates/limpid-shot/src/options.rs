@@ -7,6 +7,7 @@ use clap::{ArgAction, Args};
 use glam::DVec3;
 use limpid::{Absorption, AgitationLimits, CurvatureFlow, Filter, Foam, Fresnel, Optics, Scale, Settings, Smoothing};
 use limpid_headless::{Aov, Background};
+use limpid_io::{Condition, Selection};
 use serde::{Deserialize, Serialize};
 
 /// Vertical field of view in degrees where nothing else is asked for.
@@ -37,6 +38,31 @@ pub struct Options {
     /// Picture to write: .png, or .exr in linear light with depth, normal, thickness and more as layers; for several frames with `{}`, `%04d` or `####` in place of the number, else it is added
     #[arg(short, long, value_name = "OUT.png|exr")]
     pub output: Option<String>,
+    /// First frame's number
+    #[arg(long, value_name = "N", help_heading = "Particles")]
+    pub start: Option<u64>,
+    /// Last frame's number
+    #[arg(long, value_name = "N", help_heading = "Particles")]
+    pub end: Option<u64>,
+    /// Take every Nth frame only
+    #[arg(long, value_name = "N", help_heading = "Particles")]
+    pub step: Option<u64>,
+    /// Keep the particles alone for which this holds: an attribute, or x, y, z, compared with a number, as in 'Type == 3'; the
+    /// length of vectors; several with && or by giving it again
+    #[arg(long = "where", value_name = "CONDITION", action = ArgAction::Append, help_heading = "Particles")]
+    pub r#where: Option<Vec<String>>,
+    /// Keep the particles in this box alone: smallest x, y and z, then largest
+    #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = numbers::<6>, allow_hyphen_values = true, help_heading = "Particles")]
+    pub clip: Option<[f64; 6]>,
+    /// Leave out particles with fewer neighbours than this within 4 radii; 0 keeps all
+    #[arg(long, value_name = "N", help_heading = "Particles")]
+    pub drop_isolated: Option<u32>,
+    /// Take an attribute of the files for another: velocity=Vel
+    #[arg(long, value_name = "NAME=IN_FILE", action = ArgAction::Append, help_heading = "Particles")]
+    pub attribute: Option<Vec<String>>,
+    /// World units in a unit of the files: multiplies positions, velocities and the files' radii
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Particles")]
+    pub unit_scale: Option<f64>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH")]
     pub size: Option<Size>,
@@ -552,6 +578,27 @@ impl Options {
     /// Samples of each pixel.
     pub fn samples(&self) -> u32 {
         self.samples.unwrap_or(1)
+    }
+
+    /// What to make of every frame after it is read.
+    ///
+    /// # Errors
+    /// A condition or a new name that is none.
+    pub fn selection(&self) -> Result<Selection, Error> {
+        let conditions = self.r#where.iter().flatten().map(|text| Condition::parse_all(text));
+        let conditions: Vec<Vec<Condition>> =
+            conditions.collect::<Result<_, _>>().map_err(|problem| Error::usage(format!("--where {problem}")))?;
+        let rename = |text: &String| match text.split_once('=') {
+            Some((name, in_file)) if !name.is_empty() && !in_file.is_empty() => Ok((name.into(), in_file.into())),
+            _ => Err(Error::usage(format!("--attribute {text}: must be NAME=IN_FILE, like velocity=Vel"))),
+        };
+        Ok(Selection {
+            renames: self.attribute.iter().flatten().map(rename).collect::<Result<_, _>>()?,
+            unit_scale: self.unit_scale,
+            conditions: conditions.concat(),
+            clip: self.clip,
+            least_neighbours: self.drop_isolated.filter(|least| *least > 0),
+        })
     }
 
     /// Factor of the light.

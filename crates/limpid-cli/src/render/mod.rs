@@ -9,7 +9,7 @@ use crate::write::{write_aov, write_layers, write_picture};
 use crate::{console, environment};
 use clap::Args;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
-use limpid_io::Frame;
+use limpid_io::{Frame, ParticleSet, Selection};
 use limpid_shot::{FrameParticles, Living, Options, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
@@ -37,7 +37,9 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     }
     let quiet = options.quiet();
     let inputs = options.inputs()?;
-    let sequence = limpid_io::expand(inputs)?;
+    let selection = options.selection()?;
+    let mut sequence = limpid_io::expand(inputs)?;
+    sequence.select(options.start, options.end, options.step.unwrap_or(1))?;
     let outputs = Outputs::plan(&options, &sequence.frames)?;
     outputs.check()?;
     let props = Props::load(&options, &sequence.frames)?;
@@ -48,7 +50,8 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         offscreen.set_environment(Some(&map)).map_err(bad)?;
     }
 
-    let mut survey = survey(&sequence.frames, &options)?;
+    let read = |frame: &Frame| read(frame, &selection, options.radius);
+    let mut survey = survey(&sequence.frames, &options, read)?;
     // A single frame is not read twice.
     let mut single = survey.take_largest().filter(|_| sequence.frames.len() == 1);
     let stage = Stage::of(&options, &survey, &props)?;
@@ -58,7 +61,7 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
         let set = match single.take() {
             Some(set) => set,
-            None => Arc::new(limpid_io::read(&frame.path)?),
+            None => read(frame)?,
         };
         let mut particles = FrameParticles::of(set, &survey)?;
         let remarks = living.advance(frame, &mut particles);
@@ -99,12 +102,27 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     if !quiet { outputs.report() } else { Ok(()) }
 }
 
+/// A frame with what the options leave of it.
+fn read(frame: &Frame, selection: &Selection, radius: Option<f64>) -> Result<Arc<ParticleSet>, Failure> {
+    let mut set = limpid_io::read(&frame.path)?;
+    let read = set.len();
+    selection.apply(&mut set, radius)?;
+    if set.is_empty() && read > 0 {
+        set.warnings.push(format!("none of its {read} particles is left by --where, --clip and --drop-isolated"));
+    }
+    Ok(Arc::new(set))
+}
+
 /// Looks through all frames.
-fn survey(frames: &[Frame], options: &Options) -> Result<Survey, Failure> {
+fn survey(
+    frames: &[Frame],
+    options: &Options,
+    read: impl Fn(&Frame) -> Result<Arc<ParticleSet>, Failure>,
+) -> Result<Survey, Failure> {
     let mut survey = Survey::default();
     let progress = Progress::new("looking through", frames.len(), options.quiet());
     for frame in frames {
-        survey.include(&Arc::new(limpid_io::read(&frame.path)?), options);
+        survey.include(&read(frame)?, options);
         progress.advance();
     }
     progress.finish();
