@@ -7,7 +7,7 @@ use crate::frames::{self, Frames, Source};
 use crate::picture::{Picture, Wanted};
 use crate::times::Times;
 use crate::{camera, link, save};
-use eframe::egui::{self, Align, Color32, Key, Layout, Pos2, Rect, RichText, Ui, pos2, vec2};
+use eframe::egui::{self, Color32, Key, Layout, Pos2, Rect, RichText, Ui, pos2, vec2};
 use eframe::egui_wgpu::RenderState;
 use limpid_headless::{AdapterInfo, Aov, Background, Image};
 use limpid_shot::{Choice, Named, Options, Pose, Props, Size, config};
@@ -356,7 +356,7 @@ impl Viewer {
             return;
         };
         let wanted = Drawn { options, generation: self.generation, index: self.index, version: frames.version };
-        let asks_again = self.wants_picture || self.shows_times && self.plays;
+        let asks_again = self.wants_picture || self.shows_times && (self.plays || self.times.is_empty());
         let mut problems = Vec::new();
         let draw = |picture: &mut Picture, options: &Options, is_main: bool, survey: &mut limpid_shot::Survey| {
             survey.settle(options).map_err(|error| error.to_string())?;
@@ -765,7 +765,8 @@ impl Viewer {
                 });
             }
             if self.shows_times {
-                ui.with_layout(Layout::right_to_left(Align::Min), |ui| self.times.show(ui));
+                let corner = Rect::from_min_max(pos2(inner.right() - 256.0, inner.top()), inner.right_bottom());
+                ui.scope_builder(egui::UiBuilder::new().max_rect(corner), |ui| self.times.show(ui));
             }
         });
     }

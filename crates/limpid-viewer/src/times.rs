@@ -38,6 +38,11 @@ impl Times {
         (is_fresh && seconds > 0.0).then(|| (self.drawn.len() - 1) as f64 / seconds)
     }
 
+    /// Whether no pass has been timed yet.
+    pub fn is_empty(&self) -> bool {
+        self.passes.is_empty()
+    }
+
     /// The times of a picture's passes.
     pub fn add(&mut self, passes: Vec<PassTime>) {
         self.frames.push_back(passes.iter().map(|pass| pass.ms).sum());
