@@ -6,6 +6,8 @@ const TOUCHING: f32 = 1.0;
 const APART: f32 = 3.0;
 // Refinements of where a bent ray meets a surface that is known from the eye only.
 const MEETINGS: i32 = 3;
+// In r: as good as infinitely far.
+const FAR: f32 = 1e6;
 
 // Where a place is seen, in pixels.
 fn px_of(place: vec3f) -> vec2f {
@@ -36,10 +38,21 @@ fn spread_of(sight: Sight) -> f32 {
     var turn = 0.0;
     for (var axis = 0; axis < 2; axis++) {
         let next = min(at + vec2i(1 - axis, axis), vec2i(view.size) - 1);
-        let normal = surface[u32(next.y) * view.size.x + u32(next.x)].xyz;
-        turn = max(turn, length(normal - sight.normal) * select(0.0, 1.0, any(normal != vec3f(0.0))));
+        let index = u32(next.y) * view.size.x + u32(next.x);
+        // Where there is no liquid, the surface is whatever it was.
+        turn = select(turn, max(turn, length(surface[index].xyz - sight.normal)), nearness[index] > 0.0);
     }
     return 2.0 * (optics.refractive_index - 1.0) * turn;
+}
+
+// The surroundings where they have a share, else nothing. A loop, since CPUs run both sides of a branch.
+fn surroundings_for(share: f32, place: vec3f, direction: vec3f, spread: f32) -> vec3f {
+    let rotation = world_from_view();
+    var light = vec3f(0.0);
+    for (var once = 0u; once < select(0u, 1u, share > 0.0); once++) {
+        light = surroundings(rotation * place, rotation * direction, spread);
+    }
+    return light;
 }
 
 // What a ray sees that leaves the liquid: liquid beyond the air, else the scene. Where the picture has neither, or shows too
@@ -75,12 +88,12 @@ fn seen_beyond(origin: vec3f, direction: vec3f, spread: f32, front: f32) -> vec4
         return mix(seen, beyond.color, coverage);
     }
     // In pixels.
-    let blur = spread * (min(wanted, 1e6) - depth) * px_per_world(min(wanted, 1e6));
+    let reached = min(wanted, FAR * settings.radius);
+    let blur = spread * (reached - depth) * px_per_world(reached);
     let lost = max(smoothstep(2.0, 8.0, blur), smoothstep(1.0, 6.0, step_px));
     // Where the host has left its picture transparent, there is nothing to stand in for.
     let unseen = seen.a * select(1.0, lost, is_on_screen(px));
-    let rotation = world_from_view();
-    let around = surroundings(rotation * origin, rotation * direction, spread);
+    let around = surroundings_for(unseen, origin, direction, spread);
     return mix(mix(seen, vec4f(around, 1.0), unseen), beyond.color, coverage);
 }
 
@@ -108,8 +121,8 @@ fn through_sheet(sight: Sight, sheet: FirstSheet) -> Behind {
     let is_total = all(refracted == vec3f(0.0));
     let outside = bent(inside, normal, optics.refractive_index, air);
     let reflected = select(dot(reflectance_at(-dot(refracted, normal)), vec3f(1.0 / 3.0)), 1.0, is_total);
-    let rotation = world_from_view();
     let spread = share * spread_of(sight);
-    let inner = surroundings(rotation * exit, rotation * reflect(inside, normal), max(spread, 0.1));
-    return Behind(seen_beyond(exit, outside, spread, sight.depth), 1.0 - air * reflected, inner, sheet.share * sight.thickness);
+    let inner = surroundings_for(air * reflected, exit, reflect(inside, normal), max(spread, 0.1));
+    let seen = seen_beyond(exit, outside, spread, sight.depth);
+    return Behind(seen, 1.0 - air * reflected, inner, sheet.share * sight.thickness);
 }
