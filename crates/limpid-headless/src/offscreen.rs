@@ -31,7 +31,7 @@ impl Offscreen {
     }
 
     /// What the pictures to come have for a sky: an equirectangular picture
-    /// ([`EnvironmentMap::equirectangular`]); None: the procedural one.
+    /// ([`limpid::EnvironmentMap::equirectangular`]); None: the procedural one.
     ///
     /// # Errors
     /// Light that is not finite or negative, or a wrong number of texels.

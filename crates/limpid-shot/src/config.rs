@@ -139,7 +139,7 @@ pub fn of_text(text: &str) -> Result<Options, Error> {
     change(&Options::defaults(), &parse(text).map_err(Error::usage)?)
 }
 
-/// A configuration as a file that [`read`] takes, each key explained.
+/// A configuration as a file that `--config` takes, each key explained.
 pub fn print(options: &Options) -> Result<String, Error> {
     let table = Table::try_from(options)?;
     let mut text =

@@ -1,6 +1,6 @@
 //! The viewer: particles as a liquid, live, in a window or on a web page.
 //!
-//! Both are one application ([`app`]); what differs is how files come in and go out ([`native`], [`web`]). Options, defaults
+//! Both are one application (`app`); what differs is how files come in and go out (`native`, `web`). Options, defaults
 //! and drawing are those of `limpid render`: the settings saved here make the same picture there.
 
 mod app;
