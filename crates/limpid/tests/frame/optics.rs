@@ -57,6 +57,25 @@ fn assert_furnace(what: &str, settings: Settings) {
 }
 
 #[test]
+fn two_sheets_in_a_white_furnace_stay_white() {
+    // A sheet before a pool, each with its two surfaces.
+    let mut cloud = Cloud::slab(20, 3, 0.05, 0.0);
+    let below = Cloud::slab(24, 6, 0.05, 0.05);
+    cloud.positions.extend(below.positions.iter().map(|p| [p[0], p[1] - 0.9, p[2]]));
+    let cloud = Cloud::uniform(cloud.positions, 0.05);
+    let white = Image { size: [1, 1], channels: 3, values: vec![1.0; 3] };
+    let settings = Settings { optics: clear(), layers: true, ..Settings::default() };
+    let shot = furnace(&cloud, looking([1.6, 2.4, 2.2], [0.0, -0.4, 0.0], SIZE), settings);
+    let (beyond, _) = under(&white, &shot, Aov::BeyondDepth);
+    let twice = beyond.iter().filter(|depth| depth.is_finite()).count();
+    assert!(twice > 5000, "{twice} pixels with two sheets");
+    // Every pixel of the picture, the bare background included.
+    let (picture, _) = under(&white, &shot, Aov::Picture);
+    let most = colors(&picture).into_iter().map(|color| (color - Vec4::ONE).abs().max_element()).fold(0.0, f32::max);
+    assert!(most <= 1e-3, "off by {most}");
+}
+
+#[test]
 fn a_white_furnace_stays_white() {
     let liquids = [
         ("clear", clear()),
