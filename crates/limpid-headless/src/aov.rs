@@ -37,6 +37,8 @@ pub enum Aov {
     Transmittance,
     /// Base colour of what the liquid scatters, linear RGB; 0 for a clear one.
     Albedo,
+    /// Shares of the first three liquids at the surface, 0 to 1; of all liquids they sum to 1.
+    Liquids,
     /// Linear premultiplied RGBA of the fluid before tone mapping.
     Color,
     /// Linear premultiplied RGBA of the whole picture, with what is behind and before the fluid, before tone mapping.
@@ -54,7 +56,7 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -71,6 +73,7 @@ impl Aov {
         Self::Foam,
         Self::Transmittance,
         Self::Albedo,
+        Self::Liquids,
         Self::Color,
         Self::Picture,
         Self::Passage,
@@ -96,6 +99,7 @@ impl Aov {
             Self::Foam => "foam",
             Self::Transmittance => "transmittance",
             Self::Albedo => "albedo",
+            Self::Liquids => "liquids",
             Self::Color => "color",
             Self::Picture => "picture",
             Self::Passage => "passage",
@@ -110,7 +114,8 @@ impl Aov {
             Self::BackDepth | Self::BeyondDepth | Self::FirstThickness => 1,
             Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
             Self::Motion => 2,
-            Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo | Self::Passage => 3,
+            Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo | Self::Liquids => 3,
+            Self::Passage => 3,
             Self::Color | Self::Picture => 4,
         }
     }
@@ -124,6 +129,7 @@ impl Aov {
             Self::BackDepth | Self::BeyondDepth | Self::FirstThickness if !settings.layers => {
                 Some(Settings { layers: true, ..*settings })
             }
+            Self::Liquids => Some(shaded_as(settings, Shading::Liquids)),
             _ => None,
         }
     }
@@ -138,7 +144,7 @@ impl Aov {
             Self::Curvature => (curvature.expect("made for this image"), 1),
             Self::RawDepth => (buffers.raw_nearness, 1),
             Self::Depth => (buffers.nearness, 1),
-            Self::Color | Self::Transmittance | Self::Albedo => (buffers.shaded, 4),
+            Self::Color | Self::Transmittance | Self::Albedo | Self::Liquids => (buffers.shaded, 4),
             _ => (buffers.surface, 4),
         }
     }
@@ -155,7 +161,7 @@ impl Aov {
             Self::Curvature | Self::Noise | Self::Foam | Self::FirstThickness => {
                 words.iter().zip(nearness).map(|(value, near)| if *near > 0.0 { *value } else { 0.0 }).collect()
             }
-            Self::Transmittance | Self::Albedo => inside(words, nearness, of_whole_pixel),
+            Self::Transmittance | Self::Albedo | Self::Liquids => inside(words, nearness, of_whole_pixel),
             Self::Color => inside(words, nearness, |pixel| *pixel),
             Self::BackDepth | Self::BeyondDepth => words.to_vec(),
             Self::Picture | Self::Passage | Self::Motion => words.to_vec(),

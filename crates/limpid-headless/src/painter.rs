@@ -144,6 +144,9 @@ impl Painter {
         if shot.settings.detail.is_on() {
             particles.set_motion(device, queue, &shot.motion)?;
         }
+        if shot.settings.uses_paint() {
+            particles.set_paint(device, queue, &shot.paint)?;
+        }
         Ok(particles)
     }
 
@@ -173,7 +176,7 @@ impl Painter {
         let Shot { environment, bodies, settings, .. } = shot;
         // Whatever the background: the fluid mirrors the same surroundings before all of them.
         let casters = self.bodies.from_lights(device, queue, encoder, environment, bodies);
-        self.renderer.cast_shadow(device, queue, encoder, particles, casters, environment, &settings.optics)?;
+        self.renderer.cast_shadow(device, queue, encoder, particles, casters, environment, settings)?;
         self.draw_scene(gpu, encoder, shot, &scene, &depth);
         encoder.copy_texture_to_texture(
             images.scene.as_image_copy(),

@@ -34,7 +34,9 @@ impl Aov {
                 let shown = |h: &f32| [(-h * BALL * radius).max(0.0), (h * BALL * radius).max(0.0), 0.0];
                 values.iter().map(shown).collect()
             }
-            Self::Transmittance | Self::Albedo => values.as_chunks::<3>().0.iter().map(|rgb| rgb.map(encode)).collect(),
+            Self::Transmittance | Self::Albedo | Self::Liquids => {
+                values.as_chunks::<3>().0.iter().map(|rgb| rgb.map(encode)).collect()
+            }
             Self::Noise => {
                 let most = values.iter().fold(f32::MIN_POSITIVE, |most, v| most.max(v.abs()));
                 grey(values, |v| if v == 0.0 { 0.0 } else { 0.5 + 0.5 * v / most })

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use image::RgbaImage;
-use limpid::{Bounds, Environment, Framing, Motion, ParticleSlices, Radius, Scale, Settings};
+use limpid::{Bounds, Environment, Framing, Motion, Paint, ParticleSlices, Radius, Scale, Settings};
 use limpid_headless::{Background, Gpu, Offscreen, Shot};
 use std::path::{Path, PathBuf};
 
@@ -93,6 +93,7 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
             density: None,
         },
         motion: Motion::default(),
+        paint: Paint::default(),
         view: framing.view(DVec3::Y, fov_y, aspect, 0.1 * radius),
         size: SIZE,
         settings: (golden.settings)(),

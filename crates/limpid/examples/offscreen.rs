@@ -1,7 +1,7 @@
 //! A particle file to a raw RGBA picture in thirty lines: `cargo run --example offscreen FILE OUT.rgba`.
 
 use glam::DVec3;
-use limpid::{Bounds, Environment, Framing, Motion, ParticleSlices, Radius, Settings};
+use limpid::{Bounds, Environment, Framing, Motion, Paint, ParticleSlices, Radius, Settings};
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -23,6 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             density: None,
         },
         motion: Motion::default(),
+        paint: Paint::default(),
         view: framing.view(DVec3::Y, fov, aspect, radius * 0.1),
         size,
         settings: Settings::default(),

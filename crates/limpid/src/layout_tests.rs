@@ -4,7 +4,7 @@ use crate::bodies::BodyUniform;
 use crate::caustics::LensUniform;
 use crate::display::DisplayUniform;
 use crate::environment::{EnvironmentUniform, LightUniform};
-use crate::passes::{DetailUniform, OpticsUniform};
+use crate::passes::{DetailUniform, LiquidsUniform, OpticsUniform, PaintUniform};
 use crate::renderer::SettingsUniform;
 use crate::view::ViewUniform;
 use std::mem::offset_of;
@@ -20,6 +20,9 @@ const SHADE: &str = concat!(
     include_str!("passes/body.wgsl"),
     include_str!("passes/layers.wgsl"),
     include_str!("passes/through.wgsl"),
+    include_str!("passes/thickness_levels.wgsl"),
+    include_str!("passes/paint_sums.wgsl"),
+    include_str!("passes/paint_optics.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
 
@@ -121,10 +124,32 @@ fn optics() {
         metal,
         roughness,
         fresnel,
-        is_opaque,
+        opacity,
         padding,
     });
     assert_same(rust, wgsl_layout(SHADE, "Optics"));
+}
+
+#[test]
+fn liquids() {
+    assert_same(rust_layout!(LiquidsUniform { paint, looks }), wgsl_layout(SHADE, "Liquids"));
+}
+
+#[test]
+fn paint() {
+    let rust = rust_layout!(PaintUniform {
+        planes,
+        first_liquid,
+        liquids,
+        coloring,
+        surface_first,
+        body_first,
+        absorption,
+        layer,
+        mean_color,
+        padding,
+    });
+    assert_same(rust, wgsl_layout(SHADE, "Paint"));
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod gpu;
 #[cfg(test)]
 mod layout_tests;
 mod motion;
+mod paint;
 mod particles;
 mod passes;
 mod renderer;
@@ -36,6 +37,7 @@ pub use error::Error;
 pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
 pub use motion::Motion;
+pub use paint::{Coloring, MOST_LIQUIDS, Paint};
 pub use particles::{ParticleSlices, Particles, Radius};
 pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, LayersBuffer, Renderer, Scene, TargetFormat};
 pub use settings::{

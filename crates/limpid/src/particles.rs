@@ -1,6 +1,7 @@
 //! Particles on the GPU.
 
-use crate::{Error, Motion};
+use crate::paint::PaintAverage;
+use crate::{Error, Motion, Paint};
 use glam::DVec3;
 
 /// Particle arrays of the host's, not copied. World position = origin + position.
@@ -84,6 +85,9 @@ pub struct Particles {
     has_density: bool,
     /// `detail_splat.wgsl`'s vec4u of each particle, a buffer for each chunk; empty: nothing is known.
     motions: Vec<wgpu::Buffer>,
+    /// `paint_sums.wgsl`'s vec2u of each particle, a buffer for each chunk; empty: all are alike.
+    paints: Vec<wgpu::Buffer>,
+    paint_average: Option<PaintAverage>,
 }
 
 /// Particles that one dispatch can bind, as the balls that `ball.wgsl` reads. Buffers may be larger.
@@ -152,6 +156,8 @@ impl Particles {
             largest_radius: slices.largest_radius(),
             has_density: slices.density.is_some(),
             motions: Vec::new(),
+            paints: Vec::new(),
+            paint_average: None,
         })
     }
 
@@ -170,6 +176,35 @@ impl Particles {
         };
         self.motions = self.chunks.iter().map(buffer).collect();
         Ok(())
+    }
+
+    /// Copies what the particles are painted with, 8 bytes each, in the order of the positions.
+    ///
+    /// # Errors
+    /// Arrays of other lengths than the positions, more than [`crate::MOST_LIQUIDS`].
+    pub fn set_paint(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, paint: &Paint<'_>) -> Result<(), Error> {
+        let count = self.len() as usize;
+        paint.check(count)?;
+        let mut first = 0;
+        let buffer = |chunk: &Chunk| {
+            let range = first..first + chunk.count as usize;
+            first = range.end;
+            let packed: Vec<[u32; 2]> = range.map(|index| paint.packed(index)).collect();
+            filled_buffer(device, queue, "paints", bytemuck::cast_slice(&packed))
+        };
+        self.paints = self.chunks.iter().map(buffer).collect();
+        self.paint_average = Some(paint.average(count));
+        Ok(())
+    }
+
+    /// A buffer for each chunk.
+    pub(crate) fn paints(&self) -> &[wgpu::Buffer] {
+        &self.paints
+    }
+
+    /// None where all particles are alike.
+    pub(crate) fn paint_average(&self) -> Option<&PaintAverage> {
+        self.paint_average.as_ref()
     }
 
     /// The chunks with what `detail_splat.wgsl` reads of each.

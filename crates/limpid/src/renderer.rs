@@ -4,13 +4,13 @@ use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Curvature, Detail, Ellipsoids, FluidPasses, Layers, Normals, OpticsUniform, SceneViews, Shade, Smooth,
-    Splat, Thickness, Tiles, Upsample, level_count,
+    Composite, Curvature, Detail, Ellipsoids, FluidPasses, Layers, LiquidsUniform, Normals, Paint, PaintLayout,
+    SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
 };
 use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
-use crate::{Environment, EnvironmentMap, Error, Foam, Optics, Particles, Settings, Smoothing, View};
+use crate::{Environment, EnvironmentMap, Error, Foam, Particles, Settings, Smoothing, View};
 use bytemuck::{Pod, Zeroable};
 
 /// The host's render target that [`Renderer::composite`] draws into.
@@ -142,6 +142,7 @@ pub struct Renderer {
     smooth: Smooth,
     normals: Normals,
     detail: Detail,
+    paint: Paint,
     shade: Shade,
     upsample: Upsample,
     composite: Composite,
@@ -221,6 +222,7 @@ impl Renderer {
             smooth: Smooth::new(device, &layout),
             normals: Normals::new(device, &layout),
             detail: Detail::new(device, &layout),
+            paint: Paint::new(device, &layout),
             shade: Shade::new(device, &layout),
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
@@ -278,8 +280,9 @@ impl Renderer {
         particles: &Particles,
         scene: Option<&wgpu::Texture>,
         environment: &Environment,
-        optics: &Optics,
+        settings: &Settings,
     ) -> Result<(), Error> {
+        let optics = &settings.stirred(particles.paint_average(), particles.reference_radius);
         self.shadow.reserve(device, environment);
         let recorder =
             &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
@@ -343,6 +346,7 @@ impl Renderer {
                 Targets::new(device, frame.size, settings.filter_scale, settings.thickness_scale, in_scene)?
             }
         };
+        let paint_layout = PaintLayout::of(device, settings, particles, &targets)?;
 
         if settings.layers {
             let layers = self.layers.get_or_insert_with(|| Layers::new(device, &self.frame_layout));
@@ -353,12 +357,12 @@ impl Renderer {
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
         self.ellipsoids.write(queue, particles, &settings.anisotropy);
-        let optics = OpticsUniform::new(&settings.optics, particles.reference_radius);
+        let liquids = LiquidsUniform::new(settings, particles, paint_layout.as_ref());
         // Cast once for each frame; what the host draws after the fluid is shaded by it too.
         let shadow = self.shadow_tint.filter(|_| std::mem::take(&mut self.shadow_is_new));
         self.shadow_tint = shadow;
         let environment = frame.environment.uniform(frame.view, shadow.as_ref(), self.environment_map.as_ref());
-        self.shade.write(queue, &optics, &environment);
+        self.shade.write(queue, &liquids, &environment);
         let frame_group =
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
 
@@ -381,19 +385,25 @@ impl Renderer {
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, scene.depth, &targets);
         let detail = settings.detail.is_on().then(|| self.detail.encode(recorder, queue, frame, smoothed, &targets));
+        let paint_sums = paint_layout.as_ref().map(|layout| {
+            let layout = (layout, &liquids.paint);
+            self.paint.encode(recorder, queue, layout, particles, smoothed, scene.depth, &targets)
+        });
+        let paint_sums = paint_sums.as_ref().unwrap_or(self.paint.nothing());
         let layers = self.layers.as_ref().filter(|_| settings.layers).and_then(|layers| {
             let passes = FluidPasses {
                 tiles: &self.tiles,
                 smooth: &self.smooth,
                 normals: &self.normals,
                 shade: &self.shade,
+                no_paint: self.paint.nothing(),
                 nothing: &self.nothing,
                 scene: &scene,
                 shadow: self.shadow.map(),
             };
             layers.encode(recorder, queue, frame, &passes, (smoothed, &targets))
         });
-        self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), layers, &targets);
+        self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), layers, paint_sums, &targets);
         if let Some(detail) = detail.as_ref().filter(|_| settings.detail.foam != Foam::Off) {
             self.detail.foam(recorder, detail, &targets);
         }

@@ -1,7 +1,7 @@
 //! Every knob of the fluid's look. Lengths are in particle radii (r) unless a name says otherwise, so that a scene in
 //! millimetres looks like the same scene in metres.
 
-use crate::{Detail, Error};
+use crate::{Coloring, Detail, Error};
 
 /// How the fluid is drawn. `Settings::default()` looks good untouched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,11 @@ pub struct Settings {
     pub detail: Detail,
     /// What light does in and on the liquid.
     pub optics: Optics,
+    /// Looks of the liquids after the first ([`crate::Paint::liquids`]); None: as the first. Default: there is one liquid.
+    // A literal: rustc 1.95 fails on the constant here.
+    pub other_liquids: [Option<Optics>; 7],
+    /// What the particles' colours ([`crate::Paint::colors`]) do, default nothing.
+    pub coloring: Coloring,
     /// What shading computes, default the colour.
     pub shading: Shading,
 }
@@ -60,6 +65,8 @@ impl Default for Settings {
             normal_step: 3.0,
             detail: Detail::default(),
             optics: Optics::default(),
+            other_liquids: [None; 7],
+            coloring: Coloring::default(),
             shading: Shading::default(),
         }
     }
@@ -91,6 +98,9 @@ pub enum Shading {
     Transmittance,
     /// The base colour of what the liquid scatters; 0 for a clear one. The last channel is the coverage.
     Albedo,
+    /// Shares of the first three liquids ([`Settings::other_liquids`]) at the surface; of all of them they sum to 1. The last channel is
+    /// the coverage.
+    Liquids,
 }
 
 /// Ellipsoids in place of spheres (Xu et al. 2022, after Yu and Turk 2013): each particle is stretched along the surface as
@@ -348,7 +358,7 @@ impl Settings {
     /// # Errors
     /// [`Error::Setting`] for the first such value.
     pub fn check(&self) -> Result<(), Error> {
-        let Self { anisotropy, smoothing, optics, .. } = self;
+        let Self { anisotropy, smoothing, .. } = self;
         within("splat scale", self.splat_scale, 0.5..=4.0, "from 0.5 to 4")?;
         within("density threshold", self.density_threshold, 0.0..=f32::MAX, "0 or more")?;
         within("min thickness", self.min_thickness, 0.0..=f32::MAX, "0 or more")?;
@@ -367,6 +377,16 @@ impl Settings {
         within("range", smoothing.range, 0.01..=1000.0, "from 0.01 to 1000")?;
         within("clamp", smoothing.clamp, 0.0..=1000.0, "from 0 to 1000")?;
         self.detail.check()?;
+        if let Coloring::Absorption(depth) = self.coloring {
+            within("depth of colors", depth, 0.01..=1e4, "from 0.01 to 10000")?;
+        }
+        self.other_liquids.iter().flatten().chain([&self.optics]).try_for_each(Optics::check)
+    }
+}
+
+impl Optics {
+    fn check(&self) -> Result<(), Error> {
+        let optics = self;
         within("refractive index", optics.refractive_index, 1.0..=3.0, "from 1 to 3")?;
         let (Absorption::PerRadius(absorption) | Absorption::PerWorld(absorption)) = optics.absorption;
         for value in absorption {
@@ -389,9 +409,7 @@ impl Settings {
         within("specular", optics.specular, 0.0..=4.0, "from 0 to 4")?;
         within("shininess", optics.shininess, 1.0..=4096.0, "from 1 to 4096")
     }
-}
 
-impl Optics {
     /// Scattering coefficients per world unit for particles of this radius.
     pub(crate) fn scattering_per_world(&self, radius: f32) -> [f32; 3] {
         self.scattering.map(|k| k / self.absorption.unit(radius))

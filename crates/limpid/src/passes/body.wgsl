@@ -3,13 +3,17 @@
 // Share of the light that goes straight through so much liquid (Beer and Lambert).
 fn body_transmittance(thickness: f32) -> vec3f {
     let extinction = optics.absorption + optics.scattering;
-    return select(exp(-extinction * thickness), vec3f(0.0), optics.is_opaque == 1u);
+    return exp(-extinction * thickness) * (1.0 - optics.opacity);
 }
 
-// Base colour of what is scattered, less what is absorbed on the way.
+// Base colour of what a look scatters, less what is absorbed on the way.
+fn scattered_of(look: Optics) -> vec3f {
+    let extinction = max(look.absorption + look.scattering, vec3f(1e-30));
+    return look.albedo * (look.scattering / extinction * (1.0 - look.opacity) + look.opacity);
+}
+
 fn scattered_color() -> vec3f {
-    let extinction = max(optics.absorption + optics.scattering, vec3f(1e-30));
-    return optics.albedo * select(optics.scattering / extinction, vec3f(1.0), optics.is_opaque == 1u);
+    return scattered_of(optics);
 }
 
 // Light from within where `transmittance` goes straight through: what falls in, `lit`, is scattered out again in place of

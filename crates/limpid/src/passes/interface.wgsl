@@ -12,7 +12,7 @@ struct Optics {
     metal: vec3f, // reflectance at normal incidence; 0: a dielectric
     roughness: f32,
     fresnel: u32, // FRESNEL_*
-    is_opaque: u32,
+    opacity: f32, // 1: nothing shines through, however thin the liquid
 }
 
 const FRESNEL_EXACT: u32 = 0u;

@@ -20,6 +20,8 @@ pub(crate) struct FluidPasses<'a> {
     pub smooth: &'a Smooth,
     pub normals: &'a Normals,
     pub shade: &'a Shade,
+    /// Stand-in for sums of paint: sheets beyond the first have the particles' mean.
+    pub no_paint: &'a wgpu::Buffer,
     pub nothing: &'a Nothing,
     pub scene: &'a SceneViews<'a>,
     /// What the lights see.
@@ -208,7 +210,7 @@ impl Kernels {
             &images.layers,
         ];
         recorder.run("layers", &self.pack, &resources.map(wgpu::Buffer::as_entire_binding), &Grid::Image(size));
-        passes.shade.encode(recorder, beyond, passes.scene, passes.shadow, None, &images.beyond);
+        passes.shade.encode(recorder, beyond, passes.scene, passes.shadow, None, passes.no_paint, &images.beyond);
         let resources = [&images.beyond.shaded, &images.layers].map(wgpu::Buffer::as_entire_binding);
         recorder.run("layers", &self.pack_color, &resources, &Grid::Image(size));
     }

@@ -7,6 +7,7 @@ mod detail;
 mod layers;
 mod neighbours;
 mod normals;
+mod paint;
 mod shade;
 mod smooth;
 mod splat;
@@ -23,6 +24,9 @@ pub(crate) use detail::Detail;
 pub(crate) use detail::DetailUniform;
 pub(crate) use layers::{FluidPasses, Layers};
 pub(crate) use normals::Normals;
+#[cfg(test)]
+pub(crate) use paint::PaintUniform;
+pub(crate) use paint::{Layout as PaintLayout, LiquidsUniform, Paint};
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
 pub(crate) use smooth::{Smooth, segments_bytes};
 pub(crate) use splat::Splat;

@@ -1,6 +1,6 @@
 //! Shading: `shade.wgsl`.
 
-use super::module;
+use super::{LiquidsUniform, module};
 use crate::environment::EnvironmentUniform;
 use crate::gpu::{Grid, Kernel, Recorder, Slot, uniform_buffer};
 use crate::settings::{Fresnel, Optics};
@@ -22,7 +22,7 @@ pub(crate) struct OpticsUniform {
     pub metal: [f32; 3],
     pub roughness: f32,
     pub fresnel: u32,
-    pub is_opaque: u32,
+    pub opacity: f32,
     pub padding: [u32; 2],
 }
 
@@ -40,7 +40,7 @@ impl OpticsUniform {
             metal: optics.metal,
             roughness: optics.roughness,
             fresnel: u32::from(optics.fresnel == Fresnel::Schlick),
-            is_opaque: u32::from(optics.opaque),
+            opacity: f32::from(u8::from(optics.opaque)),
             padding: [0; 2],
         }
     }
@@ -56,7 +56,7 @@ pub(crate) struct SceneViews<'a> {
 pub(crate) struct Shade {
     plain: Kernel,
     layered: Kernel,
-    optics: wgpu::Buffer,
+    liquids: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
 
@@ -73,6 +73,9 @@ impl Shade {
             "body.wgsl",
             "layers.wgsl",
             "through.wgsl",
+            "thickness_levels.wgsl",
+            "paint_sums.wgsl",
+            "paint_optics.wgsl",
             "shade.wgsl"
         );
         let slots = [
@@ -87,6 +90,7 @@ impl Shade {
             Slot::Read,
             Slot::Color,
             Slot::Read,
+            Slot::Read,
         ];
         let kernel = |layers: bool| {
             let constants = [("LAYERS", f64::from(u8::from(layers)))];
@@ -95,13 +99,13 @@ impl Shade {
         Self {
             plain: kernel(false),
             layered: kernel(true),
-            optics: uniform_buffer::<OpticsUniform>(device, "optics"),
+            liquids: uniform_buffer::<LiquidsUniform>(device, "liquids"),
             environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
         }
     }
 
-    pub fn write(&self, queue: &wgpu::Queue, optics: &OpticsUniform, environment: &EnvironmentUniform) {
-        queue.write_buffer(&self.optics, 0, bytemuck::bytes_of(optics));
+    pub fn write(&self, queue: &wgpu::Queue, liquids: &LiquidsUniform, environment: &EnvironmentUniform) {
+        queue.write_buffer(&self.liquids, 0, bytemuck::bytes_of(liquids));
         queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(environment));
     }
 
@@ -113,11 +117,12 @@ impl Shade {
         scene: &SceneViews<'_>,
         shadow: &wgpu::Buffer,
         layers: Option<&wgpu::Buffer>,
+        paint_sums: &wgpu::Buffer,
         targets: &Targets,
     ) {
         let resources = [
             targets.tiles.as_entire_binding(),
-            self.optics.as_entire_binding(),
+            self.liquids.as_entire_binding(),
             self.environment.as_entire_binding(),
             smoothed.as_entire_binding(),
             targets.surface.as_entire_binding(),
@@ -127,6 +132,7 @@ impl Shade {
             shadow.as_entire_binding(),
             wgpu::BindingResource::TextureView(scene.environment_map),
             layers.unwrap_or(smoothed).as_entire_binding(),
+            paint_sums.as_entire_binding(),
         ];
         let kernel = if layers.is_some() { &self.layered } else { &self.plain };
         recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));

@@ -2,7 +2,7 @@
 // reflected; the sun's highlight; what the body scatters. Linear light in, linear premultiplied colour out.
 // interface.wgsl has what surfaces do, body.wgsl what the liquid between them does.
 
-@group(1) @binding(1) var<uniform> optics: Optics;
+@group(1) @binding(1) var<uniform> liquids: Liquids;
 @group(1) @binding(2) var<uniform> environment: Environment;
 @group(1) @binding(3) var<storage, read> nearness: array<f32>;
 @group(1) @binding(4) var<storage, read> surface: array<vec4f>;
@@ -16,10 +16,16 @@
 // Whether the sheets behind the front surface are known.
 override LAYERS: bool = false;
 
+@group(1) @binding(11) var<storage, read> paint_sums: array<u32>;
+
+// The liquid of this invocation's pixel.
+var<private> optics: Optics;
+
 const BACKGROUND_NONE: u32 = 0u;
 // What is computed: settings.rs's `Shading`.
 const SHADING_TRANSMITTANCE: u32 = 1u;
 const SHADING_ALBEDO: u32 = 2u;
+const SHADING_LIQUIDS: u32 = 3u;
 // Brightness of the sun's mirror image, over that of a white wall in the sun.
 const GLINT: f32 = 4.0;
 
@@ -175,5 +181,10 @@ fn shade(
     if settings.fluid_scale == 1.0 && depth >= scene_depth_at(px) {
         return;
     }
+    if settings.shading == SHADING_LIQUIDS {
+        shaded[pixel.index] = vec4f(liquids_at(pixel), 1.0);
+        return;
+    }
+    optics = optics_at(pixel, normal_thickness.w);
     shaded[pixel.index] = shading_of(sight_at(px, depth, normal_thickness));
 }

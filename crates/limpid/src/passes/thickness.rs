@@ -56,6 +56,7 @@ impl Thickness {
             "../ball.wgsl",
             "balls.wgsl",
             "thickness_levels.wgsl",
+            "pyramid_box.wgsl",
             "thickness.wgsl"
         );
         let scene_range = module!(

@@ -1,8 +1,7 @@
 // Thickness: the depth of liquid along each ray (van der Laan 2009, Eq. 9), as the sum of the balls' chords times
 // 6 / (pi S^3), so that a lattice of spacing 2 r integrates to its true depth whatever the splat scale S.
 //
-// Sums are fixed-point, so that their order does not matter. A splat goes to the level of an image pyramid in which it is
-// at most MAX_TEXELS wide: the cost of a particle is bounded however near it is, and a chord is smooth at that sampling.
+// Sums are fixed-point, so that their order does not matter.
 
 @group(1) @binding(3) var<storage, read_write> sums: array<atomic<u32>>;
 @group(1) @binding(4) var<storage, read_write> levels_used: atomic<u32>; // bit l: level l holds something
@@ -10,7 +9,6 @@
 // Liquid between the two depths of a texel's range; HIDDEN: there is more behind them.
 @group(1) @binding(6) var<storage, read_write> between: array<atomic<u32>>;
 
-const MAX_TEXELS: f32 = 20.0;
 // Sums stop growing here, far below overflow, and read as this: half a million r of liquid.
 const FULL: u32 = 0x80000000u;
 const BETWEEN_FULL: u32 = 0x40000000u;
@@ -30,29 +28,23 @@ fn splat(
     if !is_drawn(ball) {
         return;
     }
-    var box = texel_box(ball, settings.thickness_divisor, settings.thickness_size);
-    let extent = vec2f(box.max - box.min + 1);
-    if extent.x <= 0.0 || extent.y <= 0.0 {
+    let place = pyramid_box(ball);
+    let box = place.box;
+    if any(box.max < box.min) {
         return;
     }
-    let level = min(u32(max(ceil(log2(max(extent.x, extent.y) / MAX_TEXELS)), 0.0)), settings.thickness_levels - 1u);
-    let px = settings.thickness_divisor * f32(1u << level);
-    let size = level_size(level);
-    if level > 0u {
-        box = texel_box(ball, px, size);
-    }
-    atomicOr(&levels_used, 1u << level);
-    let first = level_start(level);
+    atomicOr(&levels_used, 1u << place.level);
+    let first = level_start(place.level);
     let scale = settings.splat_scale;
     let counts_per_world = 6.0 / (3.14159265 * scale * scale * scale * settings.thickness_unit);
     for (var y = box.min.y; y <= box.max.y; y++) {
         for (var x = box.min.x; x <= box.max.x; x++) {
-            let at = (vec2f(f32(x), f32(y)) + 0.5) * px;
+            let at = (vec2f(f32(x), f32(y)) + 0.5) * place.px;
             let chord = ball_chord(ball, pixel_ray(at));
             if chord.length <= 0.0 {
                 continue;
             }
-            let texel = first + u32(y) * size.x + u32(x);
+            let texel = first + u32(y) * place.size.x + u32(x);
             let counts = u32(min(chord.length * counts_per_world, 1048576.0) + 0.5);
             // Liquid never overlaps an obstacle, only its drawn balls do: a chord counts whole where its middle is free.
             let middle = 0.5 * (chord.enter + chord.leave);

@@ -17,6 +17,7 @@ mod narrow_range;
 mod normals;
 mod occlusion;
 mod optics;
+mod paint;
 mod refusals;
 mod resolution;
 mod samples;

@@ -2,7 +2,7 @@
 
 use super::Cloud;
 use glam::{DVec3, Vec3, Vec4, dvec3};
-use limpid::{Environment, Motion, Settings, View};
+use limpid::{Environment, Motion, Paint, Settings, View};
 use limpid_headless::{Aov, Background, Error, Gpu, Offscreen, Shot};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
@@ -35,6 +35,7 @@ pub fn shot_of<'a>(cloud: &'a Cloud, view: View, size: [u32; 2], settings: Setti
     Shot {
         particles: cloud.slices(),
         motion: Motion::default(),
+        paint: Paint::default(),
         view,
         size,
         settings,

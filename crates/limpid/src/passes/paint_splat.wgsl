@@ -1,0 +1,162 @@
+// Paint of the surface: every particle adds its own at the pixels whose surface is near to it. Nearness, not a depth test: what
+// comes and goes does so at weight 0, so that nothing flickers.
+//
+// The weight is a Gaussian of the smoothed surface's distance to the particle, windowed to zero at the rim. The surface before
+// smoothing counts too, by little: wherever a filter moved the surface, the ball that made it there has a say.
+
+@group(1) @binding(3) var<storage, read> paints: array<vec2u>;
+@group(1) @binding(4) var<storage, read> raw: array<f32>; // nearness
+@group(1) @binding(5) var<storage, read> nearness: array<f32>; // smoothed
+@group(1) @binding(6) var<storage, read_write> sums: array<atomic<u32>>;
+@group(1) @binding(7) var<storage, read_write> large: LargeSplats;
+@group(1) @binding(8) var<uniform> paint: Paint;
+
+struct LargeSplats {
+    groups: vec3u, // indirect dispatch of splat_large
+    count: atomic<u32>,
+    indices: array<u32>,
+}
+
+// Rim of the kernel, in drawn radii.
+const REACH: f32 = 2.0;
+// The Gaussian's exponent at the rim.
+const SHARPNESS: f32 = 3.0;
+const RAW_SHARE: f32 = 0.00390625;
+// Counts of a weight of 1.
+const UNIT: f32 = 65536.0;
+// Pixels in the bounding box above which a splat gets a workgroup of its own.
+const LARGE_PX: i32 = 1024;
+
+// Weight at a squared distance from the centre, 1 at the rim.
+fn kernel_weight(squared: f32) -> f32 {
+    let inside = max(1.0 - squared, 0.0);
+    return exp(-SHARPNESS * squared) * inside * inside;
+}
+
+@compute @workgroup_size(64)
+fn find_deepest(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let item = item_index(group, groups, lane, 64u);
+    let across = (view.size.x + 7u) / 8u;
+    let low = vec2u(item % across, item / across) * 8u;
+    if low.y >= view.size.y {
+        return;
+    }
+    let high = min(low + 8u, view.size);
+    var least = 3.4e38;
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            let index = y * view.size.x + x;
+            let near = min(raw[index], nearness[index]);
+            least = min(least, select(3.4e38, near, near > 0.0));
+        }
+    }
+    atomicStore(&sums[item], select(0u, bitcast<u32>(least), least < 3.4e38));
+}
+
+// The pixels that a particle can reach; none: out of sight.
+fn reached(ball: Ball) -> PixelBox {
+    let wide = sphere(ball.center, REACH * ball.radius);
+    if !is_drawn(wide) {
+        return PixelBox(vec2i(0), vec2i(-1));
+    }
+    return texel_box(wide, 1.0, view.size);
+}
+
+// Whether any of the surface within the box lies as deep as the particle reaches.
+fn can_touch(ball: Ball, box: PixelBox) -> bool {
+    let depth = max(-ball.center.z - REACH * ball.radius, view.near);
+    let least = nearness_of(depth);
+    let across = (i32(view.size.x) + 7) / 8;
+    let first = box.min / 8;
+    let last = box.max / 8;
+    for (var y = first.y; y <= last.y; y++) {
+        for (var x = first.x; x <= last.x; x++) {
+            let near = bitcast<f32>(atomicLoad(&sums[y * across + x]));
+            if near > 0.0 && near <= least {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+fn splat_pixel(ball: Ball, own: ParticlePaint, pixel: vec2i) {
+    let index = u32(pixel.y) * view.size.x + u32(pixel.x);
+    let near = nearness[index];
+    let raw_near = raw[index];
+    if near <= 0.0 || raw_near <= 0.0 {
+        return;
+    }
+    let ray = pixel_ray(vec2f(pixel) + 0.5);
+    let rim_squared = REACH * REACH * ball.radius * ball.radius;
+    let offset = ray.origin + depth_of(near) * ray.direction - ball.center;
+    let raw_offset = ray.origin + depth_of(raw_near) * ray.direction - ball.center;
+    let weight = kernel_weight(dot(offset, offset) / rim_squared);
+    let raw_weight = kernel_weight(dot(raw_offset, raw_offset) / rim_squared);
+    let counts = u32(round(UNIT * (weight + RAW_SHARE * raw_weight)));
+    add_paint(paint.surface_first + index * paint.planes, counts, own);
+}
+
+@compute @workgroup_size(64)
+fn splat_small(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = item_index(group, groups, lane, 64u);
+    if index >= arrayLength(&particles) {
+        return;
+    }
+    let ball = ball_of(index);
+    let box = reached(ball);
+    let extent = max(box.max - box.min + 1, vec2i(0));
+    let pixels = extent.x * extent.y;
+    if pixels == 0 {
+        return;
+    }
+    if !can_touch(ball, box) {
+        return;
+    }
+    if pixels > LARGE_PX {
+        large.indices[atomicAdd(&large.count, 1u)] = index;
+        return;
+    }
+    let own = unpack_paint(paints[index], paint);
+    for (var y = box.min.y; y <= box.max.y; y++) {
+        for (var x = box.min.x; x <= box.max.x; x++) {
+            splat_pixel(ball, own, vec2i(x, y));
+        }
+    }
+}
+
+@compute @workgroup_size(1)
+fn count_large() {
+    let count = atomicLoad(&large.count);
+    large.groups = vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
+}
+
+@compute @workgroup_size(64)
+fn splat_large(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let item = item_index(group, groups, 0u, 1u);
+    if item >= atomicLoad(&large.count) {
+        return;
+    }
+    let index = large.indices[item];
+    let ball = ball_of(index);
+    let box = reached(ball);
+    let own = unpack_paint(paints[index], paint);
+    let first = box.min + vec2i(i32(lane % 8u), i32(lane / 8u));
+    for (var y = first.y; y <= box.max.y; y += 8) {
+        for (var x = first.x; x <= box.max.x; x += 8) {
+            splat_pixel(ball, own, vec2i(x, y));
+        }
+    }
+}
