@@ -110,6 +110,7 @@ impl Shade {
     }
 
     /// Writes `targets.shaded`. `layers`: what is behind the front surface, if that is known.
+    #[expect(clippy::too_many_arguments, reason = "the images that shading reads, one from each pass before it")]
     pub fn encode(
         &self,
         recorder: &mut Recorder<'_>,
