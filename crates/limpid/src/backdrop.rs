@@ -39,7 +39,15 @@ pub struct Backdrop {
 impl Backdrop {
     /// Builds the pipeline for one kind of target.
     pub fn new(device: &wgpu::Device, target: &TargetFormat) -> Self {
-        let module = module!(device, "backdrop", "frame.wgsl", "fullscreen.wgsl", "environment.wgsl", "backdrop.wgsl");
+        let module = module!(
+            device,
+            "backdrop",
+            "frame.wgsl",
+            "fullscreen.wgsl",
+            "light_maps.wgsl",
+            "environment.wgsl",
+            "backdrop.wgsl"
+        );
         let frame = frame_layout(device);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("backdrop"),

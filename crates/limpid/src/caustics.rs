@@ -78,10 +78,12 @@ impl Caustics {
             "frame.wgsl",
             "passes/tile_pixel.wgsl",
             "passes/interface.wgsl",
+            "light_maps.wgsl",
             "lens.wgsl",
             "caustics.wgsl"
         );
-        let resolve = module!(device, "caustics resolve", "frame.wgsl", "lens.wgsl", "caustics_resolve.wgsl");
+        let resolve =
+            module!(device, "caustics resolve", "frame.wgsl", "light_maps.wgsl", "lens.wgsl", "caustics_resolve.wgsl");
         let [read, write, uniform] = [Slot::Read, Slot::Write, Slot::Uniform];
         let view = uniform_buffer::<ViewUniform>(device, "sun's view of the liquid");
         let settings = uniform_buffer::<SettingsUniform>(device, "caustics settings");

@@ -14,7 +14,7 @@ const FULL: u32 = 0x80000000u;
 // Bundles that a pixel's light is sent in, spread over the sun's disc.
 const BUNDLES: i32 = 8;
 
-// All the liquid along a ray of the sun's view, bilinear.
+// All the liquid along a ray of the sun's view, the last word of its texels, bilinear.
 fn liquid_along(px: vec2f) -> f32 {
     let size = i32(lens.shadow_texels);
     let at = px / vec2f(view.size) * f32(size) - 0.5;
@@ -93,7 +93,8 @@ fn send(
     let arriving = (1.0 - dot(reflectance_at(normal.z), vec3f(1.0 / 3.0))) * exp(-lens.absorption * wet);
     let counts = COUNTS * arriving / f32(BUNDLES);
     let spread_px = way * lens.sun_tangent / abs(view.px_step);
+    let turn = turn_at(vec2f(pixel.at));
     for (var bundle = 0; bundle < BUNDLES; bundle++) {
-        land(landing + spread_px * on_disc(bundle, BUNDLES, pixel.at), counts, wet / half_width());
+        land(landing + spread_px * on_disc(bundle, BUNDLES, turn), counts, wet / half_width());
     }
 }

@@ -29,12 +29,13 @@ fn is_near_liquid(at: vec2i) -> bool {
 
 // Share of the sun's disc that the liquid's outline leaves free: soft where the liquid is far off (Fernando 2005).
 fn passing(at: vec2i, depth: f32) -> f32 {
+    let turn = turn_at(vec2f(at));
     let px_per_slope = 1.0 / view.px_step.x;
     let widest = clamp(lens.sun_tangent * depth * px_per_slope, 1.0, f32(2 * TILE));
     var blockers = 0.0;
     var blocker_depth = 0.0;
     for (var tap = 0; tap < TAPS; tap++) {
-        let nearest = liquid_depth(at + vec2i(round(widest * on_disc(tap, TAPS, at))));
+        let nearest = liquid_depth(at + vec2i(round(widest * on_disc(tap, TAPS, turn))));
         let blocks = nearest < depth;
         blockers += select(0.0, 1.0, blocks);
         blocker_depth += select(0.0, nearest, blocks);
@@ -43,7 +44,7 @@ fn passing(at: vec2i, depth: f32) -> f32 {
     let radius = clamp(lens.sun_tangent * distance * px_per_slope, 1.0, widest);
     var free = 0.0;
     for (var tap = 0; tap < TAPS; tap++) {
-        let nearest = liquid_depth(at + vec2i(round(radius * on_disc(tap, TAPS, at))));
+        let nearest = liquid_depth(at + vec2i(round(radius * on_disc(tap, TAPS, turn))));
         free += select(1.0, 0.0, nearest < depth);
     }
     return select(1.0, free / f32(TAPS), blockers > 0.0);

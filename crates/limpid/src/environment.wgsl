@@ -118,10 +118,6 @@ fn checker(at: vec2f, width: vec2f) -> f32 {
     return 0.5 - 0.5 * integral.x * integral.y;
 }
 
-// Words of a texel of the fluid's map (shadow.wgsl), and slices among them.
-const SHADOW_WORDS: u32 = 18u;
-const SHADOW_SLICES: u32 = 16u;
-
 // Liquid before a depth from a light, in one texel.
 fn liquid_before(place: LightPlace, at: vec2i) -> f32 {
     let size = i32(environment.shadow_texels);
@@ -161,24 +157,17 @@ fn scene_from_light(first: u32, at: vec2i) -> f32 {
 
 const SUN_TAPS: i32 = 24;
 
-// A point of a disc, evenly spread (Vogel 1979), turned by an angle.
-fn on_disc(tap: i32, turn: f32) -> vec2f {
-    let angle = 2.39996323 * f32(tap) + turn;
-    return sqrt((f32(tap) + 0.5) / f32(SUN_TAPS)) * vec2f(cos(angle), sin(angle));
-}
-
 // Share of a light's disc that the scene leaves free: soft where what hides it is far off (Fernando 2005).
 fn disc_seen(place: LightPlace) -> f32 {
     let depth = place.depth;
     let texel = (0.5 * place.across + 0.5) * f32(environment.scene_texels) - 0.5;
     let texel_world = 2.0 * environment.extent / f32(environment.scene_texels);
-    // Neighbouring texels take other points of the disc: grain in place of steps.
-    let turn = 6.2831853 * fract(52.9829189 * fract(dot(floor(texel), vec2f(0.06711056, 0.00583715))));
+    let turn = turn_at(floor(texel));
     let widest = max(environment.sun_tangent * 1.5 * environment.extent / texel_world, 1.0);
     var blockers = 0.0;
     var blocker_depth = 0.0;
     for (var tap = 0; tap < SUN_TAPS; tap++) {
-        let offset = widest * on_disc(tap, turn);
+        let offset = widest * on_disc(tap, SUN_TAPS, turn);
         let nearest = scene_from_light(place.first, vec2i(round(texel + offset)));
         let margin = texel_world * (2.0 + length(offset));
         if nearest < depth - margin {
@@ -193,7 +182,7 @@ fn disc_seen(place: LightPlace) -> f32 {
     let radius = clamp(environment.sun_tangent * distance / texel_world, 1.0, widest);
     var free = 0.0;
     for (var tap = 0; tap < SUN_TAPS; tap++) {
-        let offset = radius * on_disc(tap, turn);
+        let offset = radius * on_disc(tap, SUN_TAPS, turn);
         let nearest = scene_from_light(place.first, vec2i(round(texel + offset)));
         free += select(1.0, 0.0, nearest < depth - texel_world * (2.0 + length(offset)));
     }

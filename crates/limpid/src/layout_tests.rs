@@ -14,6 +14,7 @@ use wgpu::naga;
 const SHADE: &str = concat!(
     include_str!("frame.wgsl"),
     include_str!("passes/tile_pixel.wgsl"),
+    include_str!("light_maps.wgsl"),
     include_str!("environment.wgsl"),
     include_str!("scene_depth.wgsl"),
     include_str!("passes/interface.wgsl"),
@@ -30,8 +31,12 @@ const SHADE: &str = concat!(
 const DETAIL: &str = concat!(include_str!("frame.wgsl"), include_str!("passes/detail_image.wgsl"));
 
 /// The caustics' own struct.
-const LENS: &str =
-    concat!(include_str!("frame.wgsl"), include_str!("lens.wgsl"), include_str!("caustics_resolve.wgsl"));
+const LENS: &str = concat!(
+    include_str!("frame.wgsl"),
+    include_str!("light_maps.wgsl"),
+    include_str!("lens.wgsl"),
+    include_str!("caustics_resolve.wgsl")
+);
 
 /// Name and offset of the members of a WGSL struct, and its size.
 fn wgsl_layout(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
@@ -221,7 +226,11 @@ fn body() {
         alpha,
         padding,
     });
-    let source =
-        concat!(include_str!("frame.wgsl"), include_str!("environment.wgsl"), include_str!("bodies/body.wgsl"));
+    let source = concat!(
+        include_str!("frame.wgsl"),
+        include_str!("light_maps.wgsl"),
+        include_str!("environment.wgsl"),
+        include_str!("bodies/body.wgsl")
+    );
     assert_same(rust, wgsl_layout(source, "Body"));
 }

@@ -9,8 +9,6 @@ struct Lens {
     absorption: f32, // of the colour that is absorbed least, per world unit
 }
 
-// Words of a texel of the fluid's map; the last is all the liquid along the ray.
-const SHADOW_WORDS: u32 = 18u;
 // Counts of one pixel's light, and of that light times the liquid it came through, in half widths of the view.
 const COUNTS: f32 = 32768.0;
 
@@ -33,11 +31,4 @@ fn landing_depth(px: vec2f) -> f32 {
     let fluid = lens.shadow_texels * lens.shadow_texels * SHADOW_WORDS;
     let nearness = shadow[fluid + u32(texel.y * size + texel.x)];
     return select(depth, min(depth, mix(view.far, view.near, nearness)), nearness > 0.0);
-}
-
-// A point of a disc, evenly spread (Vogel 1979), turned by an angle that differs from pixel to pixel: grain, not steps.
-fn on_disc(tap: i32, taps: i32, at: vec2i) -> vec2f {
-    let turn = 6.2831853 * fract(52.9829189 * fract(dot(vec2f(at), vec2f(0.06711056, 0.00583715))));
-    let angle = 2.39996323 * f32(tap) + turn;
-    return sqrt((f32(tap) + 0.5) / f32(taps)) * vec2f(cos(angle), sin(angle));
 }

@@ -22,7 +22,7 @@ pub(crate) fn shadow_texels(environment: &Environment, radius_world: f32) -> u32
 /// Texels along the edge of the scene's.
 pub const SCENE_SHADOW_TEXELS: u32 = 1024;
 
-/// `shadow.wgsl`'s `SLICES` and `WORDS`.
+/// `light_maps.wgsl`'s `SHADOW_SLICES` and `SHADOW_WORDS`.
 const SLICES: u64 = 16;
 const WORDS: u64 = SLICES + 2;
 
@@ -75,9 +75,10 @@ impl Shadow {
             "passes/shape.wgsl",
             "ball.wgsl",
             "passes/balls.wgsl",
+            "light_maps.wgsl",
             "shadow.wgsl"
         );
-        let resolve = module!(device, "shadow resolve", "frame.wgsl", "shadow_resolve.wgsl");
+        let resolve = module!(device, "shadow resolve", "frame.wgsl", "light_maps.wgsl", "shadow_resolve.wgsl");
         let splat = |entry_point, slots: &[Slot]| {
             Kernel::with_constants(device, frame, &splat, entry_point, slots, &[ellipsoids_constant(false)])
         };

@@ -3,10 +3,6 @@
 // Wide splats blur the map across the rays, as the sun's disc and the ripples of a real surface would; along the ray a
 // particle's liquid stays within its own radius, so that what is just before it is not shaded by it.
 
-const SLICES: u32 = 16u;
-// Words of a texel of the map: the two depths, and the liquid up to the end of each slice.
-const WORDS: u32 = SLICES + 2u;
-
 @group(1) @binding(3) var<storage, read_write> ends: array<atomic<u32>>; // of each texel: nearness of the front, depth of the back
 @group(1) @binding(4) var<storage, read_write> sums: array<atomic<u32>>; // of each texel and slice: counts
 
@@ -75,13 +71,13 @@ fn add_liquid(
             let texel = u32(y) * view.size.x + u32(x);
             let front = depth_of(bitcast<f32>(atomicLoad(&ends[2u * texel])));
             let back = bitcast<f32>(atomicLoad(&ends[2u * texel + 1u]));
-            let per_slice = f32(SLICES) / max(back - front, 1e-30);
-            let low = clamp((splat.front - front) * per_slice, 0.0, f32(SLICES));
-            let high = clamp((splat.back - front) * per_slice, low + 1e-4, f32(SLICES) + 1e-4);
+            let per_slice = f32(SHADOW_SLICES) / max(back - front, 1e-30);
+            let low = clamp((splat.front - front) * per_slice, 0.0, f32(SHADOW_SLICES));
+            let high = clamp((splat.back - front) * per_slice, low + 1e-4, f32(SHADOW_SLICES) + 1e-4);
             let counts = min(chord.length * counts_per_world, 1048576.0) / (high - low);
-            for (var slice = u32(low); slice <= min(u32(high), SLICES - 1u); slice++) {
+            for (var slice = u32(low); slice <= min(u32(high), SHADOW_SLICES - 1u); slice++) {
                 let part = min(high, f32(slice + 1u)) - max(low, f32(slice));
-                let at = texel * SLICES + slice;
+                let at = texel * SHADOW_SLICES + slice;
                 if atomicLoad(&sums[at]) < FULL {
                     atomicAdd(&sums[at], u32(max(counts * part, 0.0) + 0.5));
                 }

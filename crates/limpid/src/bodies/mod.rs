@@ -93,7 +93,15 @@ pub struct Bodies {
 impl Bodies {
     /// Builds the pipelines for one kind of target.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, target: &TargetFormat) -> Self {
-        let module = module!(device, "bodies", "../frame.wgsl", "../environment.wgsl", "body.wgsl", "glass.wgsl");
+        let module = module!(
+            device,
+            "bodies",
+            "../frame.wgsl",
+            "../light_maps.wgsl",
+            "../environment.wgsl",
+            "body.wgsl",
+            "glass.wgsl"
+        );
         let frame = frame_layout(device);
         let light_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("light"),

@@ -67,6 +67,7 @@ impl Shade {
             "shade",
             "../frame.wgsl",
             "tile_pixel.wgsl",
+            "../light_maps.wgsl",
             "../environment.wgsl",
             "../scene_depth.wgsl",
             "interface.wgsl",
