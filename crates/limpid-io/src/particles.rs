@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::{Format, Values};
+use crate::{Format, ReadError, Values};
 
 /// One frame of particles as read from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +58,17 @@ pub struct Bounds {
     pub max: [f64; 3],
 }
 
+impl Attribute {
+    /// One number for each particle: the length where it is a vector.
+    pub fn scalars(&self) -> impl Iterator<Item = f64> + '_ {
+        let components = self.components.max(1);
+        (0..self.values.len() / components).map(move |particle| match components {
+            1 => self.values.get(particle),
+            _ => (0..components).map(|k| self.values.get(particle * components + k).powi(2)).sum::<f64>().sqrt(),
+        })
+    }
+}
+
 impl ParticleSet {
     /// How many particles there are.
     pub fn len(&self) -> usize {
@@ -72,6 +83,31 @@ impl ParticleSet {
     /// The attribute of this name.
     pub fn attribute(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|attribute| attribute.name == name)
+    }
+
+    /// One number for each particle: an attribute's, the length of a vector, or `x`, `y` or `z` of the position in the world.
+    ///
+    /// # Errors
+    /// [`ReadError::NoAttribute`], unless there are no particles that could have one.
+    pub fn scalars(&self, name: &str) -> Result<Vec<f64>, ReadError> {
+        if let Some(attribute) = self.attribute(name) {
+            return Ok(attribute.scalars().collect());
+        }
+        match ["x", "y", "z"].iter().position(|axis| *axis == name) {
+            Some(axis) => Ok(self.positions.iter().map(|p| self.origin[axis] + f64::from(p[axis])).collect()),
+            None if self.is_empty() => Ok(Vec::new()),
+            None => Err(self.lacks(name)),
+        }
+    }
+
+    /// That there is no attribute of this name, and which there are.
+    pub fn lacks(&self, name: &str) -> ReadError {
+        let names: Vec<&str> = self.attributes.iter().map(|attribute| attribute.name.as_str()).collect();
+        ReadError::NoAttribute {
+            path: self.path.clone(),
+            name: name.into(),
+            names: if names.is_empty() { "none".into() } else { names.join(", ") },
+        }
     }
 
     /// The box around all particle centres, in world coordinates.

@@ -105,7 +105,9 @@ impl Selection {
         }
         let mut stays = vec![true; set.len()];
         for condition in &self.conditions {
-            test(set, condition, &mut stays)?;
+            for (value, stays) in set.scalars(&condition.name)?.into_iter().zip(&mut stays) {
+                *stays &= condition.holds(value);
+            }
         }
         if let Some(clip) = self.clip {
             for (position, stays) in set.positions.iter().zip(&mut stays) {
@@ -127,7 +129,7 @@ impl Selection {
     fn rename(&self, set: &mut ParticleSet) -> Result<(), ReadError> {
         for (name, in_file) in &self.renames {
             let Some(index) = set.attributes.iter().position(|attribute| attribute.name == *in_file) else {
-                return Err(missing(set, in_file));
+                return Err(set.lacks(in_file));
             };
             // What has the name so far is something else.
             set.attributes.retain({
@@ -148,15 +150,6 @@ impl Selection {
     }
 }
 
-fn missing(set: &ParticleSet, name: &str) -> ReadError {
-    let names: Vec<&str> = set.attributes.iter().map(|attribute| attribute.name.as_str()).collect();
-    ReadError::NoAttribute {
-        path: set.path.clone(),
-        name: name.into(),
-        names: if names.is_empty() { "none".into() } else { names.join(", ") },
-    }
-}
-
 fn scale_lengths(set: &mut ParticleSet, scale: f64) {
     set.origin = set.origin.map(|x| x * scale);
     set.positions.iter_mut().flatten().for_each(|x| *x = (f64::from(*x) * scale) as f32);
@@ -166,29 +159,6 @@ fn scale_lengths(set: &mut ParticleSet, scale: f64) {
             values.iter_mut().for_each(|x| *x = (f64::from(*x) * scale) as f32);
         }
     }
-}
-
-/// Takes out of `stays` what a condition does not hold for.
-fn test(set: &ParticleSet, condition: &Condition, stays: &mut [bool]) -> Result<(), ReadError> {
-    if let Some(attribute) = set.attribute(&condition.name) {
-        for (particle, stays) in stays.iter_mut().enumerate() {
-            let parts = (0..attribute.components).map(|k| attribute.values.get(particle * attribute.components + k));
-            let value = match attribute.components {
-                1 => parts.sum::<f64>(),
-                _ => parts.map(|x| x * x).sum::<f64>().sqrt(),
-            };
-            *stays &= condition.holds(value);
-        }
-        return Ok(());
-    }
-    let axis = ["x", "y", "z"].iter().position(|axis| *axis == condition.name);
-    let Some(axis) = axis.filter(|_| !set.is_empty()) else {
-        return if set.is_empty() { Ok(()) } else { Err(missing(set, &condition.name)) };
-    };
-    for (position, stays) in set.positions.iter().zip(stays) {
-        *stays &= condition.holds(set.origin[axis] + f64::from(position[axis]));
-    }
-    Ok(())
 }
 
 fn keep(set: &mut ParticleSet, stays: &[bool]) {

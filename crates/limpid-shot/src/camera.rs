@@ -6,7 +6,7 @@ use crate::options::Options;
 use crate::props::Props;
 use crate::survey::Survey;
 use glam::{DVec3, dvec3};
-use limpid::{Body, Bounds, Environment, Framing, Lamp, MOST_LAMPS, Paint, View};
+use limpid::{Body, Bounds, Environment, Framing, Lamp, MOST_LAMPS, View};
 use limpid_headless::Shot;
 
 /// The near plane in particle radii: closer than this to the eye nothing can be told apart. Depths are kept linear and
@@ -77,7 +77,7 @@ impl Stage {
         Shot {
             particles: particles.slices(),
             motion: particles.motion(),
-            paint: Paint::default(),
+            paint: particles.paint(),
             view: self.view,
             size: options.size(),
             settings: options.settings(),

@@ -1,5 +1,6 @@
 //! Options that are one of a few names. Each list of names is here and nowhere else.
 
+use crate::colormap::Colormap;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use limpid::{CurvatureFlow, Filter, Foam, Fresnel, Scale};
 use limpid_headless::{Aov, Background};
@@ -43,6 +44,29 @@ impl Choice for Scale {
 impl Choice for Foam {
     const ALL: &'static [(&'static str, Self)] =
         &[("off", Self::Off), ("agitation", Self::Agitation), ("speed", Self::Speed)];
+}
+
+impl Choice for Colormap {
+    const ALL: &'static [(&'static str, Self)] = &[
+        ("viridis", Self::Viridis),
+        ("magma", Self::Magma),
+        ("inferno", Self::Inferno),
+        ("plasma", Self::Plasma),
+        ("cividis", Self::Cividis),
+    ];
+}
+
+/// What the particles' colours are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColorAs {
+    /// The surface's.
+    Surface,
+    /// What the body of liquid leaves of white light.
+    Absorption,
+}
+
+impl Choice for ColorAs {
+    const ALL: &'static [(&'static str, Self)] = &[("surface", Self::Surface), ("absorption", Self::Absorption)];
 }
 
 impl Choice for Background {

@@ -190,7 +190,12 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 29] = [
+    const NOT_NUMBERS: [&str; 34] = [
+        "color-by",
+        "color-as",
+        "colormap",
+        "legend",
+        "legend-unit",
         "where",
         "attribute",
         "layers",

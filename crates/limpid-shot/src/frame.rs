@@ -2,8 +2,9 @@
 
 use crate::Error;
 use crate::survey::Survey;
+use crate::tint::Tint;
 use glam::DVec3;
-use limpid::{Motion, ParticleSlices, Radius};
+use limpid::{Motion, Paint, ParticleSlices, Radius};
 use limpid_io::{ParticleSet, Values};
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ pub struct FrameParticles {
     ids: Option<Vec<i64>>,
     velocities: Option<Vec<[f32; 3]>>,
     heat: Option<Vec<f32>>,
+    colors: Option<Vec<[f32; 3]>>,
 }
 
 enum Radii {
@@ -27,8 +29,8 @@ impl FrameParticles {
     /// Takes what is needed from a file; without copying it, if nobody else holds it.
     ///
     /// # Errors
-    /// The frame has no radius of its own where the others do.
-    pub fn of(set: Arc<ParticleSet>, survey: &Survey) -> Result<Self, Error> {
+    /// The frame has no radius of its own where the others do, or lacks what its colours come from.
+    pub fn of(set: Arc<ParticleSet>, survey: &Survey, tint: &Tint) -> Result<Self, Error> {
         let density = set.attribute("density").filter(|attribute| attribute.components == 1);
         let density = density.map(|attribute| attribute.values.floats().into_owned());
         let from_file = survey.radius_in_files() && !set.is_empty();
@@ -42,9 +44,10 @@ impl FrameParticles {
             _ => None,
         });
         let velocities = velocities_of(&set);
+        let colors = tint.colors(&set)?;
         let origin = DVec3::from_array(set.origin);
         let positions = Arc::try_unwrap(set).map_or_else(|set| set.positions.clone(), |set| set.positions);
-        let mut frame = Self { origin, positions, radii, density, ids, velocities, heat: None };
+        let mut frame = Self { origin, positions, radii, density, ids, velocities, heat: None, colors };
         frame.drop_points();
         Ok(frame)
     }
@@ -65,6 +68,9 @@ impl FrameParticles {
         }
         if let Some(velocities) = &mut self.velocities {
             keep(velocities, &solid);
+        }
+        if let Some(colors) = &mut self.colors {
+            keep(colors, &solid);
         }
         keep(radii, &solid);
     }
@@ -97,6 +103,11 @@ impl FrameParticles {
     /// What the particles carry from frame to frame.
     pub fn motion(&self) -> Motion<'_> {
         Motion { ids: self.ids(), velocities: self.velocities(), heat: self.heat.as_deref() }
+    }
+
+    /// What they are painted with.
+    pub fn paint(&self) -> Paint<'_> {
+        Paint { colors: self.colors.as_deref(), liquids: None }
     }
 
     /// The particles as the renderer takes them.
@@ -140,9 +151,11 @@ mod tests {
             ids: Some(vec![7, 8, 9]),
             velocities: None,
             heat: None,
+            colors: Some(vec![[0.0; 3], [0.5; 3], [1.0; 3]]),
         };
         frame.drop_points();
         assert_eq!(frame.ids(), Some(&[7, 9][..]));
+        assert_eq!(frame.paint().colors, Some(&[[0.0; 3], [1.0; 3]][..]));
         let slices = frame.slices();
         assert_eq!(slices.positions, [[0.0; 3], [2.0; 3]]);
         assert_eq!(slices.density, Some(&[5.0, 7.0][..]));

@@ -5,9 +5,11 @@
 
 mod camera;
 mod choice;
+mod colormap;
 pub mod config;
 mod error;
 mod frame;
+mod legend;
 mod limits;
 mod living;
 pub mod look;
@@ -16,11 +18,14 @@ mod options;
 mod props;
 mod size;
 mod survey;
+mod tint;
 
 pub use camera::{Pose, Stage};
-pub use choice::{Axis, Choice, Named, Quality};
+pub use choice::{Axis, Choice, ColorAs, Named, Quality};
+pub use colormap::Colormap;
 pub use error::Error;
 pub use frame::FrameParticles;
+pub use legend::Legend;
 pub use limits::Range;
 pub use living::{Living, Remarks};
 pub use number::{short, significant};
@@ -28,3 +33,4 @@ pub use options::{ALTERNATIVES, Options};
 pub use props::Props;
 pub use size::Size;
 pub use survey::Survey;
+pub use tint::{ColorScale, Tint};

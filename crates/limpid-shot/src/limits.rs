@@ -46,6 +46,8 @@ const RANGES: &[(&str, Range)] = &[
     ("density-threshold", Range::Within(0.0, 1e12)),
     ("normal-step", Range::Within(0.01, 1000.0)),
     ("samples", Range::Within(1.0, MOST_SAMPLES as f64)),
+    ("range", Range::Finite),
+    ("color-depth", Range::Within(0.01, 1e4)),
     ("exposure", Range::Within(0.0, 1000.0)),
     ("refractive-index", Range::Within(1.0, 3.0)),
     ("absorption", Range::Within(0.0, 1e6)),

@@ -1,11 +1,14 @@
 //! Every option of `limpid render`, as flags and as keys of a configuration file.
 
 use crate::Error;
-use crate::choice::{Axis, Named, Quality, choice};
+use crate::choice::{Axis, ColorAs, Named, Quality, choice};
+use crate::colormap::Colormap;
 use crate::size::Size;
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use limpid::{Absorption, AgitationLimits, CurvatureFlow, Filter, Foam, Fresnel, Optics, Scale, Settings, Smoothing};
+use limpid::{
+    Absorption, AgitationLimits, Coloring, CurvatureFlow, Filter, Foam, Fresnel, Optics, Scale, Settings, Smoothing,
+};
 use limpid_headless::{Aov, Background};
 use limpid_io::{Condition, Selection};
 use serde::{Deserialize, Serialize};
@@ -21,6 +24,9 @@ const HIGH_SAMPLES: u32 = 4;
 
 /// The light is shown as it is.
 const EXPOSURE: f64 = 1.0;
+
+/// Depth in r at which particles' colours are what is left of white light where nothing else is asked for.
+const COLOR_DEPTH: f64 = 6.0;
 
 /// Frames per second where nothing else is asked for: what most simulations are written at.
 const FPS: f64 = 25.0;
@@ -227,6 +233,29 @@ pub struct Options {
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
     pub shininess: Option<f64>,
 
+    /// Colour the particles by a number of each: an attribute's, the length of a vector, or x, y, z; `velocity` is the speed. Or by
+    /// `color`, their own colours in the files
+    #[arg(long, value_name = "ATTRIBUTE", help_heading = "Colours")]
+    pub color_by: Option<String>,
+    /// What the colours are: the surface's, of liquid that nothing shines through; or what the body leaves of white light
+    #[arg(long, value_name = "NAME", value_parser = choice::<ColorAs>(), help_heading = "Colours")]
+    pub color_as: Option<Named<ColorAs>>,
+    /// Absorption: depth in particle radii at which that much is left of white light
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Colours")]
+    pub color_depth: Option<f64>,
+    /// Colours for the numbers, from the least to the greatest; every map is perceptually even
+    #[arg(long, value_name = "NAME", value_parser = choice::<Colormap>(), help_heading = "Colours")]
+    pub colormap: Option<Named<Colormap>>,
+    /// Numbers that have the map's first and last colour; without it the least and the greatest of all frames
+    #[arg(long, value_name = "A,B", value_parser = numbers::<2>, allow_hyphen_values = true, help_heading = "Colours")]
+    pub range: Option<[f64; 2]>,
+    /// Whether the picture has a legend where colours stand for numbers
+    #[arg(long, value_name = "on|off", value_parser = choice::<bool>(), help_heading = "Colours")]
+    pub legend: Option<Named<bool>>,
+    /// Unit of the numbers, for the legend
+    #[arg(long, value_name = "TEXT", help_heading = "Colours")]
+    pub legend_unit: Option<String>,
+
     /// Angle that the sun's disc spans, in degrees: how soft the shadows of bodies are
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, help_heading = "Scene")]
     pub sun_size: Option<f64>,
@@ -324,6 +353,10 @@ impl Options {
             agitation_threshold: Some(AgitationLimits::default().threshold),
             cooling: Some(AgitationLimits::default().cooling),
             fps: Some(FPS),
+            color_as: Some(Named(ColorAs::Surface)),
+            color_depth: Some(COLOR_DEPTH),
+            colormap: Some(Named(Colormap::default())),
+            legend: Some(Named(true)),
             sun: Some(SUN),
             floor: Some(Named(true)),
             quiet: Some(false),
@@ -512,7 +545,24 @@ impl Options {
         set(&mut optics.refraction, self.refraction);
         set(&mut optics.specular, self.specular);
         set(&mut optics.shininess, self.shininess);
+        settings.coloring = self.coloring();
         settings
+    }
+
+    /// What the particles' colours do.
+    fn coloring(&self) -> Coloring {
+        match (&self.color_by, self.color_as) {
+            (None, _) => Coloring::Off,
+            (Some(_), Some(Named(ColorAs::Absorption))) => {
+                Coloring::Absorption(self.color_depth.unwrap_or(COLOR_DEPTH) as f32)
+            }
+            (Some(_), _) => Coloring::Surface,
+        }
+    }
+
+    /// Whether a picture whose colours stand for numbers has a legend.
+    pub fn has_legend(&self) -> bool {
+        self.legend.is_none_or(|legend| legend.0)
     }
 
     /// What agitates particles.

@@ -6,6 +6,7 @@ use crate::options::Options;
 use glam::DVec3;
 use limpid::Bounds;
 use limpid_io::{ParticleSet, Radius, RadiusSource};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// r of a scene without particles, where nothing but the scene's own scale depends on it.
@@ -20,6 +21,8 @@ pub struct Survey {
     pub extent: Option<Bounds>,
     /// What is odd about the files.
     pub warnings: Vec<String>,
+    /// Least and greatest number ([`ParticleSet::scalars`]) by what it is of; None: none of them is finite.
+    ranges: BTreeMap<String, Option<[f64; 2]>>,
     /// Radius, from the frame with the most particles, the best to estimate one from; None without particles.
     radius: Option<Radius>,
     /// The same where no option says otherwise, once it has been asked for.
@@ -34,6 +37,7 @@ impl Survey {
         Self {
             bounds: Bounds::robust(world_positions(set)),
             extent: extent_of(set),
+            ranges: ranges_of(set),
             warnings: oddities(set, options),
             largest: Some(Arc::clone(set)),
             ..Self::default()
@@ -54,6 +58,10 @@ impl Survey {
         self.warnings.extend(other.warnings);
         self.bounds = union(self.bounds, other.bounds);
         self.extent = union(self.extent, other.extent);
+        for (name, range) in other.ranges {
+            let known = self.ranges.entry(name).or_default();
+            *known = known.iter().chain(&range).copied().reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+        }
     }
 
     /// Decides on the radius by the frames so far. What the files alone say of it is worked out once for each largest frame.
@@ -81,6 +89,26 @@ impl Survey {
         self.largest.take()
     }
 
+    /// Whether no frame has any particles.
+    pub fn is_empty(&self) -> bool {
+        self.extent.is_none()
+    }
+
+    /// Whether some frame has this attribute, or a coordinate is meant.
+    pub fn has(&self, name: &str) -> bool {
+        self.ranges.contains_key(name)
+    }
+
+    /// All that particles can be told apart by.
+    pub fn names(&self) -> Vec<&str> {
+        self.ranges.keys().map(String::as_str).collect()
+    }
+
+    /// The least and the greatest of all frames' finite numbers of this name ([`ParticleSet::scalars`]).
+    pub fn range(&self, name: &str) -> Option<[f64; 2]> {
+        *self.ranges.get(name)?
+    }
+
     /// The r of the scene, world units.
     pub fn radius_world(&self) -> f64 {
         self.radius.map_or(EMPTY_RADIUS, |radius| radius.value)
@@ -102,6 +130,19 @@ impl Survey {
         };
         Some(format!("radius {} ({source})", short(significant(radius.value))))
     }
+}
+
+fn ranges_of(set: &ParticleSet) -> BTreeMap<String, Option<[f64; 2]>> {
+    let range = |numbers: &mut dyn Iterator<Item = f64>| {
+        let finite = numbers.filter(|value| value.is_finite());
+        finite.fold(None, |range: Option<[f64; 2]>, value| {
+            Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
+        })
+    };
+    let axes = set.bounds().into_iter().flat_map(|b| [0, 1, 2].map(|k| (["x", "y", "z"][k], [b.min[k], b.max[k]])));
+    let axes = axes.map(|(name, range)| (name.to_owned(), Some(range)));
+    let attributes = set.attributes.iter().map(|a| (a.name.clone(), range(&mut a.scalars())));
+    axes.chain(attributes).collect()
 }
 
 fn oddities(set: &ParticleSet, options: &Options) -> Vec<String> {

@@ -672,7 +672,8 @@ impl Viewer {
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         match &mut self.compared {
             None => {
-                if let Some((texture, _)) = self.picture.texture(shows_buffer) {
+                let texture = self.picture.texture(shows_buffer).map(|(texture, _)| texture);
+                for texture in texture.into_iter().chain(self.picture.legend(ui.ctx())) {
                     painter.image(texture, rect, whole, Color32::WHITE);
                 }
             }
@@ -689,10 +690,13 @@ impl Viewer {
                     let at = |t: f32| egui::lerp(rect.x_range(), t);
                     (Rect::from_x_y_ranges(at(from)..=at(to), rect.y_range()), uv)
                 };
-                let sides = [(&compared.picture, 0.0, compared.split), (&self.picture, compared.split, 1.0)];
-                for (picture, from, to) in sides {
-                    if let Some((texture, _)) = picture.texture(shows_buffer && std::ptr::eq(picture, &self.picture)) {
-                        let (rect, uv) = part(from, to);
+                let split = compared.split;
+                let sides = [(&mut compared.picture, false, 0.0, split), (&mut self.picture, true, split, 1.0)];
+                for (picture, is_now, from, to) in sides {
+                    let (rect, uv) = part(from, to);
+                    let shows_buffer = shows_buffer && is_now;
+                    let texture = picture.texture(shows_buffer).map(|(texture, _)| texture);
+                    for texture in texture.into_iter().chain(picture.legend(ui.ctx())) {
                         painter.image(texture, rect, uv, Color32::WHITE);
                     }
                 }

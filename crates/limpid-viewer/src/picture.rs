@@ -5,7 +5,7 @@ use eframe::egui_wgpu::{RenderState, wgpu};
 use limpid::{Body, Particles, PassTime, Profiler};
 use limpid_headless::{Aov, Download, Painter, Peek, Shot, mean_of, sample_offset_px};
 use limpid_io::Frame;
-use limpid_shot::{Error, FrameParticles, Living, Options, Pose, Props, Stage, Survey};
+use limpid_shot::{Error, FrameParticles, Legend, Living, Options, Pose, Props, Stage, Survey, Tint};
 use std::sync::Arc;
 
 /// A picture in the window, with all that it takes to draw it again.
@@ -19,6 +19,9 @@ pub struct Picture {
     /// The buffer that is shown, once it has arrived.
     shown_buffer: Option<egui::TextureHandle>,
     shown_bytes: Vec<u8>,
+    legend: Option<Legend>,
+    /// It alone, as large as the picture.
+    legend_texture: Option<(Legend, [u32; 2], egui::TextureHandle)>,
     profiler: Option<Profiler>,
     grab: Option<Grab>,
 }
@@ -48,6 +51,7 @@ struct Key {
     index: usize,
     radius: u64,
     detail: Option<Options>,
+    tint: Tint,
 }
 
 /// What to draw.
@@ -86,6 +90,8 @@ impl Picture {
             peek: None,
             shown_buffer: None,
             shown_bytes: Vec::new(),
+            legend: None,
+            legend_texture: None,
             profiler: None,
             grab: None,
         }
@@ -114,16 +120,19 @@ impl Picture {
         let Wanted { options, survey, .. } = &wanted;
         let stage = Stage::of(options, survey, wanted.props)?;
         let settings = options.settings();
+        let tint = Tint::of(options, survey)?;
+        self.legend = Legend::of(options, &tint);
         let key = Key {
             generation: wanted.generation,
             index: wanted.index,
             radius: survey.radius_world().to_bits(),
             detail: settings.detail.is_on().then(|| living_part(options)),
+            tint,
         };
         let is_new = self.loaded.as_ref().is_none_or(|loaded| loaded.key != key);
         let mut fresh = None;
         if is_new {
-            let mut frame = FrameParticles::of(Arc::clone(wanted.set), survey)?;
+            let mut frame = FrameParticles::of(Arc::clone(wanted.set), survey, &key.tint)?;
             let part = living_part(options);
             if self.living.as_ref().is_none_or(|(before, _)| *before != part) {
                 self.living = Some((part, Living::new(options)));
@@ -251,7 +260,29 @@ impl Picture {
 
     /// The bytes of the buffer that is shown, RGBA.
     pub fn buffer_bytes(&self) -> Option<Pixels> {
-        (!self.shown_bytes.is_empty() && self.peek.is_none()).then(|| (self.shown_bytes.clone(), self.drawn_size))
+        (!self.shown_bytes.is_empty() && self.peek.is_none())
+            .then(|| self.with_legend(self.shown_bytes.clone(), self.drawn_size))
+    }
+
+    fn with_legend(&self, mut rgba: Vec<u8>, size: [u32; 2]) -> Pixels {
+        if let Some(legend) = &self.legend {
+            legend.draw(&mut rgba, size);
+        }
+        (rgba, size)
+    }
+
+    /// What to put over the picture in the window.
+    pub fn legend(&mut self, ctx: &egui::Context) -> Option<TextureId> {
+        let legend = self.legend.as_ref()?;
+        let size = self.drawn_size;
+        let known = self.legend_texture.take().filter(|(known, of, _)| known == legend && *of == size);
+        let (.., texture) = self.legend_texture.insert(known.unwrap_or_else(|| {
+            let mut rgba = vec![0; 4 * size[0] as usize * size[1] as usize];
+            legend.draw(&mut rgba, size);
+            let image = egui::ColorImage::from_rgba_unmultiplied(size.map(|side| side as usize), &rgba);
+            (legend.clone(), size, ctx.load_texture("legend", image, egui::TextureOptions::LINEAR))
+        }));
+        Some(texture.id())
     }
 
     /// The picture that was to be brought back, when it has arrived.
@@ -267,7 +298,7 @@ impl Picture {
             }
         }
         let Grab { samples, size, .. } = self.grab.take()?;
-        Some(Ok((mean_of(size, samples), size)))
+        Some(Ok(self.with_legend(mean_of(size, samples), size)))
     }
 
     /// Times of the passes, when they have arrived.

@@ -10,7 +10,7 @@ use crate::{console, environment};
 use clap::Args;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
 use limpid_io::{Frame, ParticleSet, Selection};
-use limpid_shot::{FrameParticles, Living, Options, Props, Stage, Survey, config};
+use limpid_shot::{FrameParticles, Legend, Living, Options, Props, Stage, Survey, Tint, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
 use std::path::{Path, PathBuf};
@@ -55,6 +55,8 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     // A single frame is not read twice.
     let mut single = survey.take_largest().filter(|_| sequence.frames.len() == 1);
     let stage = Stage::of(&options, &survey, &props)?;
+    let tint = Tint::of(&options, &survey)?;
+    let legend = Legend::of(&options, &tint);
     let meshes = props.upload(&offscreen.gpu().device, &offscreen.gpu().queue);
     let mut living = Living::new(&options);
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
@@ -63,12 +65,13 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
             Some(set) => set,
             None => read(frame)?,
         };
-        let mut particles = FrameParticles::of(set, &survey)?;
+        let mut particles = FrameParticles::of(set, &survey, &tint)?;
         let remarks = living.advance(frame, &mut particles);
         let bodies = props.at(frame, &meshes);
         let shot = stage.shot(&options, &particles, &bodies);
         let wanted = Wanted {
             show: options.show.map(|aov| aov.0),
+            legend: legend.as_ref(),
             aovs: &outputs.aovs,
             layers: match (outputs.are_layered, particles.velocities()) {
                 (false, _) => &[],
@@ -84,9 +87,8 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
             for warning in warnings.chain(&remarks.warnings) {
                 console::warn(warning);
             }
-            if let (false, Some(radius)) = (quiet, survey.radius_note()) {
-                console::note(&radius);
-            }
+            let notes = survey.radius_note().into_iter().chain(tint.note(&options));
+            notes.filter(|_| !quiet).for_each(|note| console::note(&note));
         }
         if !quiet {
             remarks.notes.iter().for_each(|note| console::note(note));
@@ -134,6 +136,8 @@ fn survey(
 struct Wanted<'a> {
     /// The buffer that the picture is of; None: the shaded fluid.
     show: Option<Aov>,
+    /// What is drawn over the picture.
+    legend: Option<&'a Legend>,
     aovs: &'a [outputs::AovKind],
     /// The layers of the picture's file; none: it is a PNG.
     layers: &'a [Aov],
@@ -161,6 +165,9 @@ fn render(
         offscreen.render(shot, &kinds).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
     if let (Some(show), Some(image)) = (wanted.show, picture.aovs.last()) {
         picture.rgba = show.picture(image, shot.particles.reference_radius());
+    }
+    if let Some(legend) = wanted.legend {
+        legend.draw(&mut picture.rgba, picture.size);
     }
     if !wanted.layers.is_empty() {
         // Compositing programs want pixels to the next frame.
