@@ -3,10 +3,10 @@
 use crate::environment::EnvironmentUniform;
 use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::module;
-use crate::renderer::{Nothing, SettingsUniform, TargetFormat, frame_layout};
+use crate::renderer::{Nothing, SettingsUniform, frame_layout};
 use crate::shadow::FloorShadow;
 use crate::view::ViewUniform;
-use crate::{Environment, EnvironmentMap, Scale, View};
+use crate::{Environment, EnvironmentMap, Scale, TargetFormat, View};
 use glam::DVec3;
 
 /// One picture of the surroundings.

@@ -55,6 +55,7 @@ impl Light<'_> {
     }
 }
 
+#[derive(Clone)]
 pub(crate) struct Caustics {
     frame_group: wgpu::BindGroup,
     view: wgpu::Buffer,
@@ -114,10 +115,10 @@ impl Caustics {
         let targets = &self.targets;
         let view = environment.sun_view().uniform(targets.picture_size, Scale::Full, particles.origin);
         let radius = particles.reference_radius;
-        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
-        queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(radius, targets)));
-        queue.write_buffer(&self.lens, 0, bytemuck::bytes_of(&lens_uniform(light)));
-        queue.write_buffer(&self.optics, 0, bytemuck::bytes_of(&OpticsUniform::new(optics, radius)));
+        recorder.write(queue, &self.view, &view);
+        recorder.write(queue, &self.settings, &settings_uniform(radius, targets));
+        recorder.write(queue, &self.lens, &lens_uniform(light));
+        recorder.write(queue, &self.optics, &OpticsUniform::new(optics, radius));
 
         let recorder = &mut recorder.in_frame(&self.frame_group);
         // Timed as a whole: what is not measured counts to the next pass that is.

@@ -1,8 +1,8 @@
 //! The display transform: `display.wgsl`.
 
+use crate::TargetFormat;
 use crate::gpu::{Slot, bind, slot_entries, uniform_buffer};
 use crate::passes::module;
-use crate::renderer::TargetFormat;
 use bytemuck::{Pod, Zeroable};
 
 /// How bright scene light meets a screen's limits.

@@ -2,6 +2,7 @@
 
 /// What can be wrong with a frame. Every message names the setting and the remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// A setting outside its range.
     #[error("{name} is {value}, but must be {range}")]
@@ -31,6 +32,9 @@ pub enum Error {
     /// Particle arrays that do not fit together or hold numbers that are not finite.
     #[error("the particles are unusable: {0}")]
     Particles(String),
+    /// A scene's textures that do not fit the frame.
+    #[error("the scene is unusable: {0}")]
+    Scene(String),
     /// An environment map that is no light.
     #[error("the environment map is unusable: {0}")]
     Environment(String),

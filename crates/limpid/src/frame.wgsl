@@ -109,6 +109,11 @@ fn host_from_depth(depth: f32) -> f32 {
     return (row.y - depth * row.x) / (row.w - depth * row.z);
 }
 
+// Whether farther things have the larger value in it.
+fn host_depth_grows() -> bool {
+    return host_from_depth(2.0 * view.near) > host_from_depth(view.near);
+}
+
 // Work items beyond 65,535 groups fill a second dimension.
 fn item_index(group: vec3u, groups: vec3u, lane: u32, lanes: u32) -> u32 {
     return (group.y * groups.x + group.x) * lanes + lane;

@@ -4,7 +4,7 @@ use crate::bodies::BodyUniform;
 use crate::caustics::LensUniform;
 use crate::display::DisplayUniform;
 use crate::environment::{EnvironmentUniform, LightUniform};
-use crate::passes::{DetailUniform, LiquidsUniform, OpticsUniform, PaintUniform};
+use crate::passes::{DetailUniform, GatherUniform, LiquidsUniform, OpticsUniform, PaintUniform};
 use crate::renderer::SettingsUniform;
 use crate::view::ViewUniform;
 use std::mem::offset_of;
@@ -206,6 +206,26 @@ fn environment() {
         lights,
     });
     assert_same(rust, wgsl_layout(SHADE, "Environment"));
+}
+
+#[test]
+fn gather() {
+    let rust = rust_layout!(GatherUniform {
+        position_offset,
+        position_stride,
+        radius_offset,
+        radius_stride,
+        density_offset,
+        density_stride,
+        has_radii,
+        has_densities,
+        radius,
+        padding,
+    });
+    let (mut members, size) = wgsl_layout(include_str!("passes/gather.wgsl"), "Gather");
+    // A uniform's size is a multiple of 16 bytes.
+    members.push(("padding".to_owned(), 36));
+    assert_same(rust, (members, size.next_multiple_of(16)));
 }
 
 #[test]

@@ -91,6 +91,7 @@ pub struct Particles {
 }
 
 /// Particles that one dispatch can bind, as the balls that `ball.wgsl` reads. Buffers may be larger.
+#[derive(Clone)]
 pub(crate) struct Chunk {
     pub count: u64,
     /// vec4: local position, radius.
@@ -118,6 +119,12 @@ impl Chunk {
     }
 }
 
+/// Bytes that one binding holds, at most a gigabyte.
+pub(crate) fn largest_binding(device: &wgpu::Device) -> u64 {
+    let limits = device.limits();
+    limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(1 << 30)
+}
+
 /// A binding of the start of a buffer that may be larger.
 pub(crate) fn first_bytes(buffer: &wgpu::Buffer, bytes: u64) -> wgpu::BindingResource<'_> {
     wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size: wgpu::BufferSize::new(bytes) })
@@ -130,9 +137,7 @@ impl Particles {
     /// Arrays of different lengths, positions that are not finite, radii that are not positive.
     pub fn upload(device: &wgpu::Device, queue: &wgpu::Queue, slices: &ParticleSlices<'_>) -> Result<Self, Error> {
         slices.check()?;
-        let limits = device.limits();
-        let most_bytes = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(1 << 30);
-        let chunk_len = (most_bytes / 16) as usize;
+        let chunk_len = (largest_binding(device) / 16) as usize;
         let chunks = slices.positions.chunks(chunk_len).enumerate().map(|(i, positions)| {
             let first = i * chunk_len;
             let radius = |k: usize| match slices.radius {
@@ -149,16 +154,37 @@ impl Particles {
                 shapes: None,
             }
         });
-        Ok(Self {
-            chunks: chunks.collect(),
-            origin: slices.origin,
-            reference_radius: slices.reference_radius(),
-            largest_radius: slices.largest_radius(),
-            has_density: slices.density.is_some(),
+        let radii = [slices.reference_radius(), slices.largest_radius()];
+        Ok(Self::of_chunks(chunks.collect(), slices.origin, radii, slices.density.is_some()))
+    }
+
+    /// None at all, for [`crate::Renderer::gather`] to fill.
+    pub fn none() -> Self {
+        Self::of_chunks(Vec::new(), DVec3::ZERO, [1.0; 2], false)
+    }
+
+    /// Of chunks whose median and largest radius are known.
+    pub(crate) fn of_chunks(
+        chunks: Vec<Chunk>,
+        origin: DVec3,
+        [reference_radius, largest_radius]: [f32; 2],
+        has_density: bool,
+    ) -> Self {
+        Self {
+            chunks,
+            origin,
+            reference_radius,
+            largest_radius,
+            has_density,
             motions: Vec::new(),
             paints: Vec::new(),
             paint_average: None,
-        })
+        }
+    }
+
+    /// Empties it; gives back the buffers.
+    pub(crate) fn take_buffers(&mut self) -> Vec<Chunk> {
+        std::mem::replace(self, Self::none()).chunks
     }
 
     /// Copies what the particles carry from frame to frame, 16 bytes each, in the order of the positions.

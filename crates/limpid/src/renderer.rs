@@ -4,83 +4,17 @@ use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::{
-    Composite, Curvature, Detail, Ellipsoids, FluidPasses, Layers, LiquidsUniform, Normals, Paint, PaintLayout,
-    SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
+    Composite, Curvature, Detail, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform, Normals, Paint, PaintLayout,
+    ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
 };
 use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
-use crate::{Environment, EnvironmentMap, Error, Foam, Particles, Settings, Smoothing, View};
+use crate::{
+    Environment, EnvironmentMap, Error, Foam, ParticleBuffers, Particles, Scene, Settings, Smoothing, TargetFormat,
+    TargetViews, View,
+};
 use bytemuck::{Pod, Zeroable};
-
-/// The host's render target that [`Renderer::composite`] draws into.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TargetFormat {
-    /// Format of the colour target. The fluid is written as linear premultiplied colour; an sRGB format encodes it.
-    pub color: wgpu::TextureFormat,
-    /// Format of the depth target and the comparison that lets nearer things win; None: no depth target.
-    pub depth: Option<(wgpu::TextureFormat, wgpu::CompareFunction)>,
-    /// Samples per pixel of both, 1 or 4.
-    pub samples: u32,
-}
-
-impl TargetFormat {
-    pub(crate) fn fullscreen_pipeline(
-        &self,
-        device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        fragment: &str,
-        layouts: &[Option<&wgpu::BindGroupLayout>],
-        blend: Option<wgpu::BlendState>,
-    ) -> wgpu::RenderPipeline {
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(fragment),
-            bind_group_layouts: layouts,
-            immediate_size: 0,
-        });
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(fragment),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module,
-                entry_point: Some("fullscreen"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: self.depth.map(|(format, compare)| wgpu::DepthStencilState {
-                format,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(compare),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: wgpu::MultisampleState { count: self.samples, ..Default::default() },
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some(fragment),
-                compilation_options: Default::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: self.color,
-                    blend,
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
-}
-
-/// What is already in the host's picture. Both textures have the frame's size and one sample.
-#[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
-    /// Linear premultiplied colour, any float format, seen through the fluid: alpha 1 where the scene is opaque. Where there
-    /// is nothing, or None, the fluid's alpha is 1 - mean transmittance.
-    pub color: Option<&'a wgpu::TextureView>,
-    /// Depth by the view's projection. Hides fluid behind it, and ends its thickness. None: nothing is in the way.
-    pub depth: Option<&'a wgpu::TextureView>,
-}
 
 /// One picture of one fluid.
 #[derive(Clone, Copy)]
@@ -148,6 +82,10 @@ pub struct Renderer {
     composite: Composite,
     curvature: Curvature,
     /// Made when first asked for.
+    gather: Option<Gather>,
+    /// Made when first asked for.
+    resolve_depth: Option<ResolveDepth>,
+    /// Made when first asked for.
     layers: Option<Layers>,
     shadow: Shadow,
     /// Made when first asked for.
@@ -176,6 +114,7 @@ struct Prepared {
 }
 
 /// Stand-ins for a scene's textures where there is no scene.
+#[derive(Clone)]
 pub(crate) struct Nothing {
     pub color: wgpu::TextureView,
     pub depth: wgpu::TextureView,
@@ -227,6 +166,8 @@ impl Renderer {
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
             curvature: Curvature::new(device, &layout),
+            gather: None,
+            resolve_depth: None,
             layers: None,
             shadow: Shadow::new(device, &layout),
             caustics: None,
@@ -239,6 +180,63 @@ impl Renderer {
             profiler: None,
             frame_layout: layout,
         }
+    }
+
+    /// Another renderer for the same kind of target, made in no time: it shares the pipelines and has images of its own. For
+    /// fluids and views that are drawn in one pass of the host's, or that differ in size.
+    pub fn sibling(&self, device: &wgpu::Device) -> Self {
+        Self {
+            view: uniform_buffer::<ViewUniform>(device, "view"),
+            settings: uniform_buffer::<SettingsUniform>(device, "settings"),
+            ellipsoids: self.ellipsoids.clone(),
+            splat: self.splat.clone(),
+            tiles: self.tiles.clone(),
+            thickness: self.thickness.clone(),
+            smooth: self.smooth.clone(),
+            normals: self.normals.clone(),
+            detail: self.detail.clone(),
+            paint: self.paint.clone(),
+            shade: self.shade.clone(),
+            upsample: self.upsample.clone(),
+            composite: self.composite.clone(),
+            curvature: self.curvature.clone(),
+            gather: self.gather.clone(),
+            resolve_depth: self.resolve_depth.as_ref().map(ResolveDepth::sibling),
+            layers: self.layers.as_ref().map(Layers::sibling),
+            shadow: self.shadow.sibling(device),
+            caustics: self.caustics.clone(),
+            shadow_tint: None,
+            shadow_is_new: false,
+            environment_map: self.environment_map.clone(),
+            nothing: self.nothing.clone(),
+            targets: None,
+            prepared: None,
+            profiler: None,
+            frame_layout: self.frame_layout.clone(),
+        }
+    }
+
+    /// Records the copy of particles from buffers of the host's into `particles`, whose own buffers are used again where they
+    /// are large enough. Particles whose place is not finite, or whose radius is not between 1e-18 and 1e18, are left out;
+    /// so is what `particles` had of [`crate::Motion`] and [`crate::Paint`].
+    ///
+    /// # Errors
+    /// [`Error::Particles`]: columns that reach beyond their buffers, are not on 4-byte boundaries, or lack
+    /// [`wgpu::BufferUsages::STORAGE`]; a radius out of range. Nothing is recorded then.
+    pub fn gather(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        buffers: &ParticleBuffers<'_>,
+        particles: &mut Particles,
+    ) -> Result<(), Error> {
+        buffers.check()?;
+        let gather = self.gather.get_or_insert_with(|| Gather::new(device, &self.frame_layout));
+        let frame_group = self.shadow.frame_group(); // unused, but every kernel has one
+        let recorder = &mut Recorder { device, encoder, frame_group, profiler: self.profiler.as_mut() };
+        gather.encode(recorder, queue, buffers, particles);
+        Ok(())
     }
 
     /// What the frames to come reflect in place of the procedural sky; None: that sky.
@@ -319,8 +317,11 @@ impl Renderer {
 
     /// Records everything up to the shaded fluid. Buffers follow the frame's size and settings by themselves.
     ///
+    /// One encoder takes as many frames as it likes, of other fluids and views too, as long as each is composited before the
+    /// next is prepared; those drawn together have a [`Self::sibling`] each.
+    ///
     /// # Errors
-    /// A setting out of its range, an unusable camera, a size that the device cannot hold. Nothing is recorded then.
+    /// A setting out of its range, an unusable camera or scene, a size that the device cannot hold. Nothing is recorded then.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -330,12 +331,8 @@ impl Renderer {
     ) -> Result<(), Error> {
         frame.view.check()?;
         frame.settings.check()?;
+        frame.scene.check(frame.size)?;
         let Frame { particles, settings, .. } = *frame;
-        let scene = SceneViews {
-            color: frame.scene.color.unwrap_or(&self.nothing.color),
-            depth: frame.scene.depth.unwrap_or(&self.nothing.depth),
-            environment_map: self.environment_map.as_ref().map_or(&self.nothing.color, |map| &map.view),
-        };
         let in_scene = frame.scene.depth.is_some();
         let targets = match self.targets.take() {
             Some(targets) if targets.fit(frame.size, settings, in_scene) => targets,
@@ -353,20 +350,32 @@ impl Renderer {
             layers.reserve(device, frame.size, settings.layers_scale())?;
         }
 
+        let frame_group =
+            bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
+        let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
-        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
-        queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings_uniform(frame, &targets)));
-        self.ellipsoids.write(queue, particles, &settings.anisotropy);
+        recorder.write(queue, &self.view, &view);
+        recorder.write(queue, &self.settings, &settings_uniform(frame, &targets));
+        self.ellipsoids.write(recorder, queue, particles, &settings.anisotropy);
         let liquids = LiquidsUniform::new(settings, particles, paint_layout.as_ref());
         // Cast once for each frame; what the host draws after the fluid is shaded by it too.
         let shadow = self.shadow_tint.filter(|_| std::mem::take(&mut self.shadow_is_new));
         self.shadow_tint = shadow;
         let environment = frame.environment.uniform(frame.view, shadow.as_ref(), self.environment_map.as_ref());
-        self.shade.write(queue, &liquids, &environment);
-        let frame_group =
-            bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
+        self.shade.write(recorder, queue, &liquids, &environment);
 
-        let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
+        let scene_depth = frame.scene.depth.map(|depth| {
+            if depth.texture().sample_count() == 1 {
+                return depth.clone();
+            }
+            let resolve = self.resolve_depth.get_or_insert_with(|| ResolveDepth::new(device, &self.frame_layout));
+            resolve.encode(recorder, depth, frame.size)
+        });
+        let scene = SceneViews {
+            color: frame.scene.color.unwrap_or(&self.nothing.color),
+            depth: scene_depth.as_ref().unwrap_or(&self.nothing.depth),
+            environment_map: self.environment_map.as_ref().map_or(&self.nothing.color, |map| &map.view),
+        };
         self.splat.clear(recorder, &targets);
         let balls = if settings.anisotropy.enabled {
             let skip_hidden = settings.anisotropy.skip_hidden;
@@ -377,7 +386,7 @@ impl Renderer {
         };
         self.tiles.encode(recorder, &targets);
         if settings.fixed_thickness.is_none() {
-            self.thickness.splat(recorder, "splat-thickness", balls, frame.scene.depth, &targets.thickness);
+            self.thickness.splat(recorder, "splat-thickness", balls, scene_depth.as_ref(), &targets.thickness);
             if settings.thickness_blur {
                 self.thickness.blur(recorder, &targets);
             }
@@ -425,6 +434,11 @@ impl Renderer {
         if let Some(prepared) = &self.prepared {
             self.composite.draw(pass, &prepared.frame_group, &prepared.images);
         }
+    }
+
+    /// Draws the prepared fluid as [`Self::composite`] does, in a pass of its own that keeps what is in `target`.
+    pub fn composite_onto(&self, encoder: &mut wgpu::CommandEncoder, target: &TargetViews<'_>) {
+        self.composite(&mut target.begin_pass(encoder));
     }
 
     /// Records the mean curvature of the last prepared frame's smoothed surface and returns the buffer it will be in: one

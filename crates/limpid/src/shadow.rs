@@ -33,6 +33,7 @@ const SPLAT_SCALE: f32 = 3.0;
 pub(crate) const LIGHT_WORDS: u32 = CAUSTICS_FIRST_WORD + CAUSTIC_WORDS as u32;
 
 /// One light's view.
+#[derive(Clone)]
 struct LightFrame {
     group: wgpu::BindGroup,
     view: wgpu::Buffer,
@@ -48,6 +49,7 @@ impl LightFrame {
     }
 }
 
+#[derive(Clone)]
 pub(crate) struct Shadow {
     lights: [LightFrame; MOST_LIGHTS],
     find_ends: Kernel,
@@ -92,6 +94,11 @@ impl Shadow {
             sums: storage_buffer(device, "shadow sums", 4 * SLICES * TEXELS),
             map: light_maps(device, 1),
         }
+    }
+
+    /// The same kernels for another renderer, with a map of its own.
+    pub fn sibling(&self, device: &wgpu::Device) -> Self {
+        Self { map: light_maps(device, 1), ..self.clone() }
     }
 
     /// What `environment.wgsl` binds as `shadow`.
@@ -148,8 +155,8 @@ impl Shadow {
             ..SettingsUniform::zeroed()
         };
         let frame = &self.lights[light as usize];
-        queue.write_buffer(&frame.view, 0, bytemuck::bytes_of(&view));
-        queue.write_buffer(&frame.settings, 0, bytemuck::bytes_of(&settings));
+        recorder.write(queue, &frame.view, &view);
+        recorder.write(queue, &frame.settings, &settings);
         let recorder = &mut recorder.in_frame(&frame.group);
         recorder.clear(&self.ends);
         recorder.clear(&self.sums);

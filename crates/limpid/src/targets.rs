@@ -13,6 +13,7 @@ const COVERED_TILES_PX: [u32; 4] = [4, 8, 16, 32];
 /// Bytes per pixel of the largest image, `surface` or `shaded`.
 const LARGEST_PIXEL: u64 = 16;
 
+#[derive(Clone)]
 pub(crate) struct Targets {
     /// The host's pixels.
     pub picture_size: [u32; 2],
@@ -44,6 +45,7 @@ pub(crate) struct Targets {
 }
 
 /// Segments of all lines along one axis.
+#[derive(Clone)]
 pub(crate) struct Segments {
     /// Indirect dispatch, count and places of those that hold fluid.
     pub list: wgpu::Buffer,
@@ -59,6 +61,7 @@ impl Segments {
 }
 
 /// Thickness of one view.
+#[derive(Clone)]
 pub(crate) struct ThicknessImages {
     /// Texels of the finest level and of the result.
     pub size: [u32; 2],
@@ -72,6 +75,7 @@ pub(crate) struct ThicknessImages {
 }
 
 /// What the host's scene hides of the liquid. Without a scene: stand-ins that nothing reads.
+#[derive(Clone)]
 pub(crate) struct Occlusion {
     /// Two f32 per texel of the pyramid: nearest and farthest depth of the scene (`scene_range.wgsl`).
     pub ranges: wgpu::Buffer,
@@ -102,6 +106,7 @@ impl ThicknessImages {
 }
 
 /// Images that only exist where the fluid's resolution is not the picture's.
+#[derive(Clone)]
 pub(crate) struct PictureImages {
     pub raw: wgpu::Buffer,
     pub nearness: wgpu::Buffer,

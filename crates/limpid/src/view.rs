@@ -20,7 +20,22 @@ pub struct View {
 }
 
 impl View {
-    /// A perspective camera: `fov_y` is the full vertical field of view in radians, `aspect` is width over height.
+    /// A perspective camera with reversed, infinite depth: `fov_y` is the full vertical field of view in radians, `aspect` is
+    /// width over height.
+    ///
+    /// ```
+    /// use limpid::View;
+    /// use limpid::glam::{DVec3, dvec3};
+    ///
+    /// let view = View::perspective(dvec3(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y, 0.8, 1.5, 0.1);
+    /// assert_eq!(view.eye(), dvec3(0.0, 0.0, 5.0));
+    /// // Near things have the larger depth.
+    /// assert!((view.clip_from_view.project_point3(dvec3(0.0, 0.0, -0.1)).z - 1.0).abs() < 1e-12);
+    /// // A projection of the host's own is as good.
+    /// let clip_from_view = limpid::glam::dcamera::rh::proj::directx::perspective(0.8, 1.5, 0.1, 100.0);
+    /// let standard = View { clip_from_view, ..view };
+    /// assert!(standard.is_perspective());
+    /// ```
     pub fn perspective(eye: DVec3, target: DVec3, up: DVec3, fov_y: f64, aspect: f64, near: f64) -> Self {
         Self {
             view_from_world: view::look_at_mat4(eye, target, up),

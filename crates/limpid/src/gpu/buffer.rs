@@ -21,10 +21,16 @@ pub(crate) fn uniform_buffer<T>(device: &wgpu::Device, label: &str) -> wgpu::Buf
     })
 }
 
-/// A storage buffer that is made anew when it is too small; its contents do not survive that.
+/// A storage buffer that is made anew when it is too small; its contents do not survive that. A clone has none yet.
 pub(crate) struct GrowBuffer {
     label: &'static str,
     buffer: Option<wgpu::Buffer>,
+}
+
+impl Clone for GrowBuffer {
+    fn clone(&self) -> Self {
+        Self::new(self.label)
+    }
 }
 
 impl GrowBuffer {

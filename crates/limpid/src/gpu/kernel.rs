@@ -51,6 +51,7 @@ pub(crate) fn bind(
 }
 
 /// A compute pipeline.
+#[derive(Clone)]
 pub(crate) struct Kernel {
     pub(super) pipeline: wgpu::ComputePipeline,
     pub(super) layout: wgpu::BindGroupLayout,

@@ -1,7 +1,7 @@
 //! Recording of compute passes into the host's encoder.
 
 use super::kernel::bind;
-use super::{Kernel, Profiler};
+use super::{Kernel, Profiler, uniform_buffer};
 
 /// How many workgroups a kernel runs on.
 pub(crate) enum Grid<'a> {
@@ -44,6 +44,26 @@ impl Recorder<'_> {
             Grid::Image(size) => pass.dispatch_workgroups(size[0].div_ceil(8), size[1].div_ceil(8), 1),
             Grid::Indirect(buffer) => pass.dispatch_workgroups_indirect(buffer, 0),
         }
+    }
+
+    /// Fills a uniform buffer before what is recorded next. Unlike a write to the queue it leaves alone what was
+    /// recorded before, so that one encoder holds several frames.
+    pub fn write<T: bytemuck::Pod>(&mut self, queue: &wgpu::Queue, buffer: &wgpu::Buffer, value: &T) {
+        let staged = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("staged uniform"),
+            size: size_of::<T>() as u64,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        queue.write_buffer(&staged, 0, bytemuck::bytes_of(value));
+        self.encoder.copy_buffer_to_buffer(&staged, 0, buffer, 0, staged.size());
+    }
+
+    /// A uniform buffer of its own for one kernel.
+    pub fn uniform<T: bytemuck::Pod>(&self, queue: &wgpu::Queue, label: &str, value: &T) -> wgpu::Buffer {
+        let buffer = uniform_buffer::<T>(self.device, label);
+        queue.write_buffer(&buffer, 0, bytemuck::bytes_of(value));
+        buffer
     }
 
     /// Zeroes a whole buffer.

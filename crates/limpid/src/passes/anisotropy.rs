@@ -15,6 +15,7 @@ const REACH: f32 = 2.0;
 /// Particles of a larger radius than this many medians look for neighbours no farther, or cells would get crowded.
 const MOST_MEDIANS: f32 = 2.0;
 
+#[derive(Clone)]
 pub(crate) struct Ellipsoids {
     neighbours: Neighbours,
     visible: Visible,
@@ -51,7 +52,13 @@ impl Ellipsoids {
     }
 
     /// Writes what the kernels know of the settings.
-    pub fn write(&self, queue: &wgpu::Queue, particles: &Particles, settings: &Anisotropy) {
+    pub fn write(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &wgpu::Queue,
+        particles: &Particles,
+        settings: &Anisotropy,
+    ) {
         let radius = particles.largest_radius.min(MOST_MEDIANS * particles.reference_radius);
         let grid = GridUniform {
             cell: settings.support * radius / REACH,
@@ -61,7 +68,7 @@ impl Ellipsoids {
             center_smoothing: settings.center_smoothing,
             skip_hidden: u32::from(settings.skip_hidden),
         };
-        queue.write_buffer(&self.grid, 0, bytemuck::bytes_of(&grid));
+        recorder.write(queue, &self.grid, &grid);
     }
 
     /// Splats the particles as ellipsoids into `targets.raw`, and returns them: those that cannot show as spheres.

@@ -1,9 +1,10 @@
 //! The last pass, one triangle in the host's own render pass: `composite.wgsl`.
 
 use super::module;
+use crate::TargetFormat;
 use crate::gpu::{Slot, bind, slot_entries};
-use crate::renderer::TargetFormat;
 
+#[derive(Clone)]
 pub(crate) struct Composite {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,

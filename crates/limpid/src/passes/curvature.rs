@@ -3,6 +3,7 @@
 use super::module;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 
+#[derive(Clone)]
 pub(crate) struct Curvature {
     kernel: Kernel,
 }

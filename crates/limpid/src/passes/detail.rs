@@ -9,6 +9,7 @@ use bytemuck::{Pod, Zeroable};
 /// Words before the indices in `detail_splat.wgsl`'s `LargeSplats`.
 const HEADER_WORDS: u64 = 4;
 
+#[derive(Clone)]
 pub(crate) struct Detail {
     deepest: Kernel,
     small: Kernel,
@@ -132,7 +133,7 @@ impl Detail {
     ) -> wgpu::Buffer {
         let device = recorder.device;
         let uniform = DetailUniform::new(frame, targets);
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        recorder.write(queue, &self.uniform, &uniform);
         let deepest = self.deepest_nearness.reserve(device, 4 * targets.tile_count()).clone();
         let planes = if frame.settings.detail.foam == Foam::Off { 1 } else { 3 };
         let sums_bytes = 4 * planes * uniform.texels();

@@ -34,6 +34,7 @@ pub(crate) struct Layers {
     images: Option<Images>,
 }
 
+#[derive(Clone)]
 struct Kernels {
     view: wgpu::Buffer,
     /// Settings of what is beyond the air, and of the back of the first sheet.
@@ -49,6 +50,7 @@ struct Kernels {
 }
 
 /// What the kernels of one layer see as the frame.
+#[derive(Clone)]
 struct LayerFrame {
     settings: wgpu::Buffer,
     group: wgpu::BindGroup,
@@ -100,6 +102,11 @@ impl Layers {
         Self { kernels: Kernels::new(device, frame), images: None }
     }
 
+    /// The same kernels for another renderer, with images of its own.
+    pub fn sibling(&self) -> Self {
+        Self { kernels: self.kernels.clone(), images: None }
+    }
+
     /// Makes the images of a frame.
     ///
     /// # Errors
@@ -128,7 +135,7 @@ impl Layers {
         (front, targets): (&wgpu::Buffer, &Targets),
     ) -> Option<&wgpu::Buffer> {
         let images = self.images.as_ref()?;
-        self.kernels.write(queue, frame, targets);
+        self.kernels.write(recorder, queue, frame, targets);
         self.kernels.encode(recorder, frame, passes, (front, targets), images);
         Some(&images.layers)
     }
@@ -215,10 +222,10 @@ impl Kernels {
         recorder.run("layers", &self.pack_color, &resources, &Grid::Image(size));
     }
 
-    fn write(&self, queue: &wgpu::Queue, frame: &Frame<'_>, targets: &Targets) {
+    fn write(&self, recorder: &mut Recorder<'_>, queue: &wgpu::Queue, frame: &Frame<'_>, targets: &Targets) {
         let scale = frame.settings.layers_scale();
         let view = frame.view.uniform(frame.size, scale, frame.particles.origin);
-        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
+        recorder.write(queue, &self.view, &view);
         let own = settings_uniform(frame, targets);
         let spheres = SettingsUniform {
             fluid_scale: scale.divisor() as f32,
@@ -227,10 +234,10 @@ impl Kernels {
             max_radius_px: frame.settings.smoothing.max_radius_px as f32 / scale.divisor() as f32,
             ..own
         };
-        queue.write_buffer(&self.beyond.settings, 0, bytemuck::bytes_of(&spheres));
+        recorder.write(queue, &self.beyond.settings, &spheres);
         let strength = back_smoothing(frame.settings).strength;
         let back = SettingsUniform { strength, sphere_strength: strength, has_scene_depth: 0, ..spheres };
-        queue.write_buffer(&self.back.settings, 0, bytemuck::bytes_of(&back));
+        recorder.write(queue, &self.back.settings, &back);
     }
 
     /// From particles to `images.back.raw` and `images.beyond.raw`.

@@ -4,10 +4,12 @@ mod anisotropy;
 mod composite;
 mod curvature;
 mod detail;
+mod gather;
 mod layers;
 mod neighbours;
 mod normals;
 mod paint;
+mod resolve_depth;
 mod shade;
 mod smooth;
 mod splat;
@@ -22,11 +24,15 @@ pub(crate) use curvature::Curvature;
 pub(crate) use detail::Detail;
 #[cfg(test)]
 pub(crate) use detail::DetailUniform;
+pub(crate) use gather::Gather;
+#[cfg(test)]
+pub(crate) use gather::GatherUniform;
 pub(crate) use layers::{FluidPasses, Layers};
 pub(crate) use normals::Normals;
 #[cfg(test)]
 pub(crate) use paint::PaintUniform;
 pub(crate) use paint::{Layout as PaintLayout, LiquidsUniform, Paint};
+pub(crate) use resolve_depth::ResolveDepth;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade};
 pub(crate) use smooth::{Smooth, segments_bytes};
 pub(crate) use splat::Splat;

@@ -13,6 +13,7 @@ const BLOCK_CELLS: u64 = 1024;
 /// Buckets of the largest table, which the smallest binding limit of any device holds.
 const MOST_BUCKETS: u64 = 1 << 24;
 
+#[derive(Clone)]
 pub(crate) struct Neighbours {
     count: Kernel,
     allocate: Kernel,

@@ -113,6 +113,7 @@ impl LiquidsUniform {
     }
 }
 
+#[derive(Clone)]
 pub(crate) struct Paint {
     deepest: Kernel,
     small: Kernel,
@@ -190,7 +191,7 @@ impl Paint {
         targets: &Targets,
     ) -> wgpu::Buffer {
         let device = recorder.device;
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(uniform));
+        recorder.write(queue, &self.uniform, uniform);
         let sums = self.sums.reserve(device, 4 * layout.words).clone();
         recorder.encoder.clear_buffer(&sums, 0, Some(4 * layout.words));
         for (index, (chunk, paints)) in particles.chunks.iter().zip(particles.paints()).enumerate() {

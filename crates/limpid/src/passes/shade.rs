@@ -53,6 +53,7 @@ pub(crate) struct SceneViews<'a> {
     pub environment_map: &'a wgpu::TextureView,
 }
 
+#[derive(Clone)]
 pub(crate) struct Shade {
     plain: Kernel,
     layered: Kernel,
@@ -105,9 +106,15 @@ impl Shade {
         }
     }
 
-    pub fn write(&self, queue: &wgpu::Queue, liquids: &LiquidsUniform, environment: &EnvironmentUniform) {
-        queue.write_buffer(&self.liquids, 0, bytemuck::bytes_of(liquids));
-        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(environment));
+    pub fn write(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &wgpu::Queue,
+        liquids: &LiquidsUniform,
+        environment: &EnvironmentUniform,
+    ) {
+        recorder.write(queue, &self.liquids, liquids);
+        recorder.write(queue, &self.environment, environment);
     }
 
     /// Writes `targets.shaded`. `layers`: what is behind the front surface, if that is known.

@@ -9,6 +9,7 @@ use crate::targets::Targets;
 /// Words before the indices in `splat.wgsl`'s `LargeSplats`.
 const HEADER_WORDS: u64 = 2;
 
+#[derive(Clone)]
 pub(crate) struct Splat {
     spheres: Kernels,
     ellipsoids: Kernels,
@@ -17,6 +18,7 @@ pub(crate) struct Splat {
 }
 
 /// The kernels for one kind of ball.
+#[derive(Clone)]
 struct Kernels {
     small: Kernel,
     count: Kernel,

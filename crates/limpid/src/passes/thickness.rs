@@ -34,6 +34,7 @@ fn level_number(device: &wgpu::Device, level: u32) -> wgpu::Buffer {
     buffer
 }
 
+#[derive(Clone)]
 pub(crate) struct Thickness {
     scene_range: Kernel,
     coarser_range: Kernel,

@@ -4,6 +4,7 @@ use super::module;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::targets::Targets;
 
+#[derive(Clone)]
 pub(crate) struct Tiles {
     list: Kernel,
     count: Kernel,

@@ -4,6 +4,7 @@ use super::module;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::targets::{FluidImages, Targets};
 
+#[derive(Clone)]
 pub(crate) struct Upsample {
     kernel: Kernel,
 }

@@ -8,6 +8,7 @@ use crate::targets::Targets;
 /// `visible.wgsl`'s `LEVELS`.
 const LEVELS: u64 = 7;
 
+#[derive(Clone)]
 pub(crate) struct Visible {
     find_fronts: Kernel,
     list_fronts: Kernel,

@@ -6,6 +6,7 @@ use crate::passes::module;
 use crate::settings::CurvatureFlow as Form;
 use crate::targets::{Segments, Targets};
 
+#[derive(Clone)]
 pub(super) struct CurvatureFlow {
     rows: Axis,
     columns: Axis,
@@ -14,6 +15,7 @@ pub(super) struct CurvatureFlow {
 }
 
 /// The semi-implicit form along one axis.
+#[derive(Clone)]
 pub(super) struct Axis {
     list_segments: Kernel,
     /// Eliminates, then substitutes.

@@ -14,6 +14,7 @@ use curvature_flow::{Axis, CurvatureFlow};
 use gaussian::Gaussian;
 use narrow_range::NarrowRange;
 
+#[derive(Clone)]
 pub(crate) struct Smooth {
     gaussian: Gaussian,
     bilateral: Bilateral,

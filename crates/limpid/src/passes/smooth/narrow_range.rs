@@ -4,6 +4,7 @@ use super::{PIXEL_SLOTS, Step, Work};
 use crate::gpu::Kernel;
 use crate::passes::module;
 
+#[derive(Clone)]
 pub(super) struct NarrowRange {
     x: Kernel,
     y: Kernel,
