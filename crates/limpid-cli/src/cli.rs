@@ -1,5 +1,6 @@
 //! The command line: subcommands, their help, usage errors in one line.
 
+use crate::bench::BenchArguments;
 use crate::failure::Failure;
 use crate::info::InfoArguments;
 use crate::render::RenderArguments;
@@ -34,6 +35,8 @@ pub enum Command {
     },
     /// List what this machine can render on
     Adapters,
+    /// Measure frames from 10 thousand particles to 16 million
+    Bench(BenchArguments),
 }
 
 /// What the command line asks for.

@@ -1,6 +1,7 @@
 //! The program `limpid`.
 
 mod adapters;
+mod bench;
 mod cli;
 mod console;
 mod environment;
@@ -35,5 +36,6 @@ fn run() -> Result<(), Failure> {
         Parsed::Command(Command::Info(arguments)) => info::run(&arguments),
         Parsed::Command(Command::Looks { name }) => looks::run(name.as_deref()),
         Parsed::Command(Command::Adapters) => adapters::run(),
+        Parsed::Command(Command::Bench(arguments)) => bench::run(&arguments),
     }
 }

@@ -17,11 +17,11 @@ pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
 
 impl Choice for Filter {
     const ALL: &'static [(&'static str, Self)] = &[
-        ("narrow-range", Self::NarrowRange),
-        ("curvature-flow", Self::CurvatureFlow),
-        ("bilateral", Self::Bilateral),
-        ("gaussian", Self::Gaussian),
-        ("none", Self::None),
+        (Self::NarrowRange.name(), Self::NarrowRange),
+        (Self::CurvatureFlow.name(), Self::CurvatureFlow),
+        (Self::Bilateral.name(), Self::Bilateral),
+        (Self::Gaussian.name(), Self::Gaussian),
+        (Self::None.name(), Self::None),
     ];
 }
 

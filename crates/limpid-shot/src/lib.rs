@@ -21,7 +21,7 @@ mod survey;
 mod tint;
 
 pub use camera::{Pose, Stage};
-pub use choice::{Axis, Choice, ColorAs, Named, Quality};
+pub use choice::{Axis, Choice, ColorAs, Named, Quality, choice};
 pub use colormap::Colormap;
 pub use error::Error;
 pub use frame::FrameParticles;

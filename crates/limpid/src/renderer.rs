@@ -437,8 +437,10 @@ impl Renderer {
     }
 
     /// Draws the prepared fluid as [`Self::composite`] does, in a pass of its own that keeps what is in `target`.
-    pub fn composite_onto(&self, encoder: &mut wgpu::CommandEncoder, target: &TargetViews<'_>) {
-        self.composite(&mut target.begin_pass(encoder));
+    pub fn composite_onto(&mut self, encoder: &mut wgpu::CommandEncoder, target: &TargetViews<'_>) {
+        let timestamp_writes = self.profiler.as_mut().and_then(|profiler| profiler.render("composite"));
+        let mut pass = target.begin_pass(encoder, timestamp_writes);
+        self.composite(&mut pass);
     }
 
     /// Records the mean curvature of the last prepared frame's smoothed surface and returns the buffer it will be in: one

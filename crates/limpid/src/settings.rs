@@ -189,6 +189,19 @@ pub enum Filter {
     NarrowRange,
 }
 
+impl Filter {
+    /// What the program's options and reports call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Gaussian => "gaussian",
+            Self::Bilateral => "bilateral",
+            Self::CurvatureFlow => "curvature-flow",
+            Self::NarrowRange => "narrow-range",
+        }
+    }
+}
+
 /// How curvature flow advances in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CurvatureFlow {
