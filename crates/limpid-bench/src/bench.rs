@@ -158,6 +158,9 @@ impl Bench {
         };
         let begin = Instant::now();
         let mut encoder = device.create_command_encoder(&Default::default());
+        if let Some(profiler) = self.renderer.profiler() {
+            profiler.start_clock(&mut encoder);
+        }
         let prepared = self.renderer.prepare(device, queue, &mut encoder, &frame);
         let target = TargetViews { color: &stage.target, resolve: None, depth: None };
         self.renderer.composite_onto(&mut encoder, &target);

@@ -4,7 +4,7 @@ use crate::report::{Measurement, Report};
 use limpid::Filter;
 use std::fmt::Write;
 
-const SIZE: [f64; 2] = [720.0, 460.0];
+const SIZE: [f64; 2] = [770.0, 460.0];
 /// Left, top, right, bottom of the axes.
 const BOX: [f64; 4] = [70.0, 30.0, 540.0, 400.0];
 /// The paper's largest set: beyond it the plot ends.
@@ -81,6 +81,8 @@ pub fn fig9(report: &Report) -> Option<String> {
             let at = x.at(case.particles as f64);
             let [low, high] = [case.frame_ms().low, case.frame_ms().high].map(|ms| y.at(ms));
             let _ = writeln!(svg, "<path d=\"M{at:.1} {low:.1}V{high:.1}\" stroke=\"{}\"/>", color(filter));
+            let middle = y.at(case.frame_ms().median);
+            let _ = writeln!(svg, "<circle cx=\"{at:.1}\" cy=\"{middle:.1}\" r=\"3\" fill=\"{}\"/>", color(filter));
         }
         let line = top + 10.0 + 20.0 * index as f64;
         let name = format!("{}{}", filter.name(), if anisotropy { ", anisotropic" } else { "" });

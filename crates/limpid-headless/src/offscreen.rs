@@ -2,7 +2,8 @@
 
 use crate::samples::{Mean, mixes, sample_offset_px};
 use crate::{Aov, Background, Error, Gpu, Image, Painter, Picture, Shot, Timings, motion, readback};
-use limpid::{Particles, PassTime, Profiler};
+use limpid::{Partial, ParticleSlices, Particles, PassTime, Profiler, Radius};
+use std::ops::Range;
 use std::time::Instant;
 
 /// Renders shots on one device, reusing its pipelines and buffers from shot to shot.
@@ -37,6 +38,42 @@ impl Offscreen {
     /// Light that is not finite or negative, or a wrong number of texels.
     pub fn set_environment(&mut self, picture: Option<&Image>) -> Result<(), Error> {
         self.painter.set_environment(&self.gpu.device, &self.gpu.queue, picture)
+    }
+
+    /// What some of a shot's particles leave in the images of the fluid before anything is smoothed. Those of all particles,
+    /// [merged](Partial::merge), are the fluid of the whole shot ([`Self::set_partial`]).
+    ///
+    /// # Errors
+    /// As [`Self::render`]; settings that want all particles at once.
+    pub fn partial(&mut self, shot: &Shot<'_>, part: Range<usize>) -> Result<Partial, Error> {
+        let all = shot.particles;
+        let slices = ParticleSlices {
+            origin: all.origin,
+            positions: &all.positions[part.clone()],
+            radius: match all.radius {
+                Radius::Uniform(radius) => Radius::Uniform(radius),
+                Radius::Each(radii) => Radius::Each(&radii[part.clone()]),
+            },
+            density: all.density.map(|density| &density[part]),
+        };
+        let Gpu { device, queue, .. } = &self.gpu;
+        let particles = Particles::upload(device, queue, &slices)?.with_reference_radius(all.reference_radius());
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.painter.draw_part(device, queue, &mut encoder, shot, &particles)?;
+        queue.submit([encoder.finish()]);
+        let missing = || Error::Device("there is no part to read back".into());
+        let buffers = self.painter.renderer().partial_buffers().ok_or_else(missing)?;
+        let images = buffers.buffers.map(|(buffer, words)| readback::read_words(device, queue, buffer, words));
+        let mut whole: [Vec<u32>; 5] = Default::default();
+        for (image, words) in whole.iter_mut().zip(images) {
+            *image = words?;
+        }
+        Ok(Partial::new(&buffers, whole)?)
+    }
+
+    /// What the pictures to come show of the fluid in place of their particles, which still cast its shadow; None: the particles.
+    pub fn set_partial(&mut self, partial: Option<Partial>) {
+        self.painter.set_partial(partial);
     }
 
     /// Renders one picture and reads it back with the buffers asked for.

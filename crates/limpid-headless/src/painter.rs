@@ -2,8 +2,8 @@
 
 use crate::{Background, Error, Image, Shot};
 use limpid::{
-    Backdrop, BackdropFrame, Bodies, Display, EnvironmentMap, FloorShadow, Frame, Layer, Look, Particles, Renderer,
-    Scene, TargetFormat,
+    Backdrop, BackdropFrame, Bodies, Display, EnvironmentMap, FloorShadow, Frame, Layer, Look, Partial, Particles,
+    Renderer, Scene, TargetFormat,
 };
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -23,6 +23,7 @@ pub struct Painter {
     bodies: Bodies,
     display: Display,
     images: Option<Images>,
+    partial: Option<Partial>,
 }
 
 /// The textures of one size (handles, cheap to clone).
@@ -90,6 +91,7 @@ impl Painter {
             bodies: Bodies::new(device, queue, &target),
             display: Display::new(device, SHOWN),
             images: None,
+            partial: None,
         }
     }
 
@@ -135,6 +137,12 @@ impl Painter {
         Ok(())
     }
 
+    /// What the pictures to come show of the fluid in place of their particles, which still cast its shadow: parts that were saved
+    /// ([`crate::Offscreen::partial`]) and merged. None: the particles.
+    pub fn set_partial(&mut self, partial: Option<Partial>) {
+        self.partial = partial;
+    }
+
     /// The particles of a shot on the device, with what its settings need of them.
     ///
     /// # Errors
@@ -162,15 +170,7 @@ impl Painter {
         shot: &Shot<'_>,
         particles: &Particles,
     ) -> Result<(), Error> {
-        let limit = device.limits().max_texture_dimension_2d;
-        let [width, height] = shot.size;
-        if width == 0 || height == 0 || width.max(height) > limit {
-            return Err(Error::Size { width, height, limit });
-        }
-        // The old ones go first: they may not fit beside the new.
-        let images = self.images.take().filter(|images| images.size == shot.size);
-        let images = images.unwrap_or_else(|| Images::new(device, shot.size));
-        self.images = Some(images.clone());
+        let images = self.images_of(device, shot.size)?;
         let (scene, depth, picture) = (view_of(&images.scene), view_of(&images.depth), view_of(&images.picture));
         let gpu = (device, queue);
         let Shot { environment, bodies, settings, .. } = shot;
@@ -183,24 +183,55 @@ impl Painter {
             images.picture.as_image_copy(),
             images.scene.size(),
         );
-        let transparent = shot.background == Background::Transparent;
-        let has_bodies = !shot.bodies.is_empty();
-        let is_solid = shot.background == Background::Scene || shot.bodies.iter().any(|body| body.look != Look::Glass);
-        let frame = Frame {
-            particles,
-            view: &shot.view,
-            size: shot.size,
-            settings: &shot.settings,
-            environment: &shot.environment,
-            scene: Scene { color: (!transparent || has_bodies).then_some(&scene), depth: is_solid.then_some(&depth) },
-        };
-        self.renderer.prepare(device, queue, encoder, &frame)?;
+        let frame = frame_of(shot, particles, &scene, &depth);
+        match &self.partial {
+            None => self.renderer.prepare(device, queue, encoder, &frame)?,
+            Some(partial) => {
+                self.renderer.begin_parts(device, queue, encoder, &frame)?;
+                self.renderer.load_partial(device, queue, encoder, partial)?;
+                self.renderer.finish_parts(device, queue, encoder, &frame)?;
+            }
+        }
         self.draw_fluid(gpu, encoder, shot, &picture, &depth);
         self.draw_display(gpu, encoder, shot, &picture, &view_of(&images.shown));
         if let Some(profiler) = self.renderer.profiler() {
             profiler.resolve(encoder);
         }
         Ok(())
+    }
+
+    /// Records what `part`, some of the shot's particles, leaves in the images of the fluid, for
+    /// [`Renderer::partial_buffers`].
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub(crate) fn draw_part(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        shot: &Shot<'_>,
+        part: &Particles,
+    ) -> Result<(), Error> {
+        let images = self.images_of(device, shot.size)?;
+        let (scene, depth) = (view_of(&images.scene), view_of(&images.depth));
+        self.draw_scene((device, queue), encoder, shot, &scene, &depth);
+        self.renderer.begin_parts(device, queue, encoder, &frame_of(shot, part, &scene, &depth))?;
+        Ok(self.renderer.add_part(device, encoder, part)?)
+    }
+
+    /// The textures of that size, from the last frame if it had it.
+    fn images_of(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<Images, Error> {
+        let limit = device.limits().max_texture_dimension_2d;
+        let [width, height] = size;
+        if width == 0 || height == 0 || width.max(height) > limit {
+            return Err(Error::Size { width, height, limit });
+        }
+        // The old ones go first: they may not fit beside the new.
+        let images = self.images.take().filter(|images| images.size == size);
+        let images = images.unwrap_or_else(|| Images::new(device, size));
+        self.images = Some(images.clone());
+        Ok(images)
     }
 
     fn draw_scene(
@@ -274,6 +305,26 @@ impl Painter {
             ..Default::default()
         });
         self.display.draw(device, queue, &mut pass, picture, shot.exposure, shot.background.tone_map());
+    }
+}
+
+/// The fluid of a shot in its scene.
+fn frame_of<'a>(
+    shot: &'a Shot<'_>,
+    particles: &'a Particles,
+    scene: &'a wgpu::TextureView,
+    depth: &'a wgpu::TextureView,
+) -> Frame<'a> {
+    let transparent = shot.background == Background::Transparent;
+    let has_bodies = !shot.bodies.is_empty();
+    let is_solid = shot.background == Background::Scene || shot.bodies.iter().any(|body| body.look != Look::Glass);
+    Frame {
+        particles,
+        view: &shot.view,
+        size: shot.size,
+        settings: &shot.settings,
+        environment: &shot.environment,
+        scene: Scene { color: (!transparent || has_bodies).then_some(scene), depth: is_solid.then_some(depth) },
     }
 }
 

@@ -40,13 +40,13 @@ fn read_bytes(
     Ok(mapped.to_vec())
 }
 
-/// The first `count` 4-byte words of a buffer, as floats.
-pub(crate) fn read_words(
+/// The first `count` 4-byte words of a buffer.
+pub(crate) fn read_words<T: bytemuck::Pod>(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     buffer: &wgpu::Buffer,
     count: usize,
-) -> Result<Vec<f32>, Error> {
+) -> Result<Vec<T>, Error> {
     let bytes = 4 * count as u64;
     let read = read_bytes(device, queue, bytes, |encoder, to| encoder.copy_buffer_to_buffer(buffer, 0, to, 0, bytes))?;
     Ok(bytemuck::pod_collect_to_vec(&read))

@@ -35,6 +35,9 @@ pub enum Error {
     /// A scene's textures that do not fit the frame.
     #[error("the scene is unusable: {0}")]
     Scene(String),
+    /// Particles that do not come in parts, or parts that do not fit together.
+    #[error("the frame cannot be put together of parts: {0}")]
+    Parts(String),
     /// An environment map that is no light.
     #[error("the environment map is unusable: {0}")]
     Environment(String),

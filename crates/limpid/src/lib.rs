@@ -67,6 +67,7 @@ mod host_target;
 mod layout_tests;
 mod motion;
 mod paint;
+mod partial;
 mod particle_buffers;
 mod particles;
 mod passes;
@@ -93,9 +94,10 @@ pub use gpu::{PassTime, Profiler};
 pub use host_target::{TargetFormat, TargetViews};
 pub use motion::Motion;
 pub use paint::{Coloring, MOST_LIQUIDS, Paint};
+pub use partial::Partial;
 pub use particle_buffers::{Column, ParticleBuffers, RadiusColumn};
 pub use particles::{ParticleSlices, Particles, Radius};
-pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, LayersBuffer, Renderer};
+pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, LayersBuffer, PartialBuffers, Renderer};
 pub use scene::Scene;
 pub use settings::{
     Absorption, Anisotropy, CurvatureFlow, Filter, Fresnel, Optics, Scale, Settings, Shading, Smoothing,

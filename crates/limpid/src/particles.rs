@@ -163,6 +163,11 @@ impl Particles {
         Self::of_chunks(Vec::new(), DVec3::ZERO, [1.0; 2], false)
     }
 
+    /// The same particles as a part of others, whose median radius this is: the r in which settings are measured.
+    pub fn with_reference_radius(self, reference_radius: f32) -> Self {
+        Self { reference_radius, ..self }
+    }
+
     /// Of chunks whose median and largest radius are known.
     pub(crate) fn of_chunks(
         chunks: Vec<Chunk>,

@@ -1,8 +1,11 @@
 //! The frame: one road from particles to the host's target.
 
+mod parts;
+
 use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
+use crate::partial::Conditions;
 use crate::passes::{
     Composite, Curvature, Detail, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform, Normals, Paint, PaintLayout,
     ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
@@ -15,6 +18,8 @@ use crate::{
     TargetViews, View,
 };
 use bytemuck::{Pod, Zeroable};
+pub use parts::PartialBuffers;
+use parts::Parts;
 
 /// One picture of one fluid.
 #[derive(Clone, Copy)]
@@ -97,8 +102,21 @@ pub struct Renderer {
     environment_map: Option<EnvironmentMap>,
     nothing: Nothing,
     targets: Option<Targets>,
+    /// A frame whose particles come in parts.
+    parts: Option<Parts>,
     prepared: Option<Prepared>,
     profiler: Option<Profiler>,
+}
+
+/// A frame between its particles and its picture.
+struct Begun {
+    targets: Targets,
+    frame_group: wgpu::BindGroup,
+    /// Of one sample a pixel.
+    scene_depth: Option<wgpu::TextureView>,
+    paint_layout: Option<PaintLayout>,
+    liquids: LiquidsUniform,
+    conditions: Conditions,
 }
 
 /// What `composite` and the readers of buffers need of the last prepared frame.
@@ -176,6 +194,7 @@ impl Renderer {
             environment_map: None,
             nothing: Nothing::new(device),
             targets: None,
+            parts: None,
             prepared: None,
             profiler: None,
             frame_layout: layout,
@@ -210,6 +229,7 @@ impl Renderer {
             environment_map: self.environment_map.clone(),
             nothing: self.nothing.clone(),
             targets: None,
+            parts: None,
             prepared: None,
             profiler: None,
             frame_layout: self.frame_layout.clone(),
@@ -329,6 +349,21 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         frame: &Frame<'_>,
     ) -> Result<(), Error> {
+        let begun = self.clear(device, queue, encoder, frame)?;
+        self.splat(device, encoder, frame.settings, frame.particles, &begun);
+        self.resolve(device, queue, encoder, frame, begun);
+        Ok(())
+    }
+
+    /// Readies the images for particles: nothing is in them.
+    fn clear(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame<'_>,
+    ) -> Result<Begun, Error> {
+        self.abandon_parts();
         frame.view.check()?;
         frame.settings.check()?;
         frame.scene.check(frame.size)?;
@@ -355,7 +390,8 @@ impl Renderer {
         let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         recorder.write(queue, &self.view, &view);
-        recorder.write(queue, &self.settings, &settings_uniform(frame, &targets));
+        let uniform = settings_uniform(frame, &targets);
+        recorder.write(queue, &self.settings, &uniform);
         self.ellipsoids.write(recorder, queue, particles, &settings.anisotropy);
         let liquids = LiquidsUniform::new(settings, particles, paint_layout.as_ref());
         // Cast once for each frame; what the host draws after the fluid is shaded by it too.
@@ -371,22 +407,57 @@ impl Renderer {
             let resolve = self.resolve_depth.get_or_insert_with(|| ResolveDepth::new(device, &self.frame_layout));
             resolve.encode(recorder, depth, frame.size)
         });
+        self.splat.clear(recorder, &targets);
+        if settings.fixed_thickness.is_none() {
+            self.thickness.clear(recorder, scene_depth.as_ref(), &targets.thickness);
+        }
+        let conditions = Conditions::new(&view, &uniform, &targets);
+        Ok(Begun { targets, frame_group, scene_depth, paint_layout, liquids, conditions })
+    }
+
+    /// Adds particles to the images.
+    fn splat(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        settings: &Settings,
+        particles: &Particles,
+        begun: &Begun,
+    ) {
+        let Begun { targets, frame_group, .. } = begun;
+        let recorder = &mut Recorder { device, encoder, frame_group, profiler: self.profiler.as_mut() };
+        let balls = if settings.anisotropy.enabled {
+            let skip_hidden = settings.anisotropy.skip_hidden;
+            self.ellipsoids.encode(recorder, particles, &mut self.splat, targets, skip_hidden)
+        } else {
+            particles.chunks.iter().for_each(|chunk| self.splat.spheres(recorder, chunk, targets));
+            &particles.chunks
+        };
+        if settings.fixed_thickness.is_none() {
+            self.thickness.splat(recorder, balls, &targets.thickness);
+        }
+    }
+
+    /// Makes a picture of what is in the images.
+    fn resolve(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame<'_>,
+        begun: Begun,
+    ) {
+        let Frame { particles, settings, .. } = *frame;
+        let Begun { targets, frame_group, scene_depth, paint_layout, liquids, .. } = begun;
         let scene = SceneViews {
             color: frame.scene.color.unwrap_or(&self.nothing.color),
             depth: scene_depth.as_ref().unwrap_or(&self.nothing.depth),
             environment_map: self.environment_map.as_ref().map_or(&self.nothing.color, |map| &map.view),
         };
-        self.splat.clear(recorder, &targets);
-        let balls = if settings.anisotropy.enabled {
-            let skip_hidden = settings.anisotropy.skip_hidden;
-            self.ellipsoids.encode(recorder, particles, &mut self.splat, &targets, skip_hidden)
-        } else {
-            particles.chunks.iter().for_each(|chunk| self.splat.spheres(recorder, chunk, &targets));
-            &particles.chunks
-        };
+        let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
         self.tiles.encode(recorder, &targets);
         if settings.fixed_thickness.is_none() {
-            self.thickness.splat(recorder, "splat-thickness", balls, scene_depth.as_ref(), &targets.thickness);
+            self.thickness.collapse(recorder, &targets.thickness);
             if settings.thickness_blur {
                 self.thickness.blur(recorder, &targets);
             }
@@ -425,7 +496,6 @@ impl Renderer {
         let smoothed = smoothed.clone();
         self.prepared = Some(Prepared { frame_group, images, nearness, smoothed, has_layers: settings.layers, detail });
         self.targets = Some(targets);
-        Ok(())
     }
 
     /// Draws the prepared fluid into the host's pass: linear premultiplied colour, blended over what is there, and depth.

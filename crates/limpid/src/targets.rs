@@ -141,7 +141,6 @@ impl Targets {
         }
         let size = filter_scale.of(picture_size);
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let covered_tiles = COVERED_TILES_PX.map(|px| cells(size, px));
         let image = |label, bytes| storage_buffer(device, label, bytes);
         Ok(Self {
             picture_size,
@@ -149,7 +148,7 @@ impl Targets {
             size,
             thickness_scale,
             raw: image("raw nearness", 4 * pixels),
-            covered: image("covered blocks", 4 * (cells(size, BLOCK_PX) + covered_tiles.iter().sum::<u64>())),
+            covered: image("covered blocks", 4 * covered_words(size)),
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
@@ -175,6 +174,20 @@ impl Targets {
             && self.in_scene == in_scene
     }
 
+    /// What the particles leave behind, with the words of each that count: all that later passes know of them.
+    pub fn splatted(&self) -> [(&wgpu::Buffer, usize); 5] {
+        let Self { raw, covered, thickness, .. } = self;
+        let pixels = self.size[0] as usize * self.size[1] as usize;
+        let texels = pyramid_texels(thickness.size) as usize;
+        [
+            (raw, pixels),
+            (covered, covered_words(self.size) as usize),
+            (&thickness.sums, texels),
+            (&thickness.levels_used, 1),
+            (&thickness.occlusion.between, if self.in_scene { texels } else { 0 }),
+        ]
+    }
+
     /// The smallest tiles of `covered.wgsl`.
     pub fn covered_tile_count(&self) -> u64 {
         cells(self.size, COVERED_TILES_PX[0])
@@ -189,6 +202,11 @@ impl Targets {
     pub fn tile_count(&self) -> u64 {
         cells(self.size, TILE_PX)
     }
+}
+
+/// Words of `covered.wgsl`'s list.
+fn covered_words(size: [u32; 2]) -> u64 {
+    cells(size, BLOCK_PX) + COVERED_TILES_PX.map(|px| cells(size, px)).iter().sum::<u64>()
 }
 
 /// Squares of `px` pixels that cover an image.

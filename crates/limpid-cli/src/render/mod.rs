@@ -1,6 +1,7 @@
 //! `limpid render`: from particle files to pictures.
 
 mod outputs;
+mod partial;
 mod progress;
 mod timings;
 
@@ -27,6 +28,13 @@ pub struct RenderArguments {
     /// Print all options as they would be used, in the form that --config reads, and stop
     #[arg(long)]
     print_config: bool,
+    /// Save what the K-th of N parts of a single frame's particles leaves in the picture's images to -o OUT.partial, for
+    /// --partials; needs --anisotropy off --layers off
+    #[arg(long, value_name = "K/N", help_heading = "More output", conflicts_with = "partials")]
+    part: Option<partial::Part>,
+    /// Make the picture of these saved parts; INPUT, the same options as theirs and a fixed camera say what is around them
+    #[arg(long, value_name = "FILE,FILE,...", value_delimiter = ',', help_heading = "More output")]
+    partials: Vec<PathBuf>,
 }
 
 /// Renders every frame and writes its files.
@@ -40,11 +48,19 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let selection = options.selection()?;
     let mut sequence = limpid_io::expand(inputs)?;
     sequence.select(options.start, options.end, options.step.unwrap_or(1))?;
-    let outputs = Outputs::plan(&options, &sequence.frames)?;
+    if (arguments.part.is_some() || !arguments.partials.is_empty()) && sequence.frames.len() != 1 {
+        let frames = sequence.frames.len();
+        return Err(Failure::usage(format!(
+            "--part and --partials take one frame, not {frames}; choose it by --start and --end"
+        )));
+    }
+    let outputs = Outputs::plan(&options, &sequence.frames, arguments.part.is_some())?;
     outputs.check()?;
+    let merged = partial::merged(&arguments.partials)?;
     let props = Props::load(&options, &sequence.frames)?;
     let map = options.environment.as_deref().map(|path| environment::read(Path::new(path))).transpose()?;
     let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
+    offscreen.set_partial(merged);
     if let (Some(map), Some(path)) = (map, &options.environment) {
         let bad = |source| Failure::Frame { path: path.into(), source };
         offscreen.set_environment(Some(&map)).map_err(bad)?;
@@ -80,7 +96,10 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
             },
             seconds_per_frame: 1.0 / options.fps(),
         };
-        render(&mut offscreen, &shot, &wanted, files, &frame.path)?;
+        match arguments.part {
+            Some(part) => partial::save(&mut offscreen, &shot, part, &files.picture, &frame.path)?,
+            None => render(&mut offscreen, &shot, &wanted, files, &frame.path)?,
+        }
         if index == 0 {
             // Only now: a failure so far is one line.
             let warnings = sequence.warnings.iter().chain(&survey.warnings).chain(&props.warnings);

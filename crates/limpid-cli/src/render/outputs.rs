@@ -50,12 +50,15 @@ pub enum TimingsTarget {
 }
 
 impl Outputs {
-    /// Names the files of every frame.
-    pub fn plan(options: &Options, frames: &[Frame]) -> Result<Self, Failure> {
+    /// Names the files of every frame; `are_parts`: what is written is no picture but a part of one.
+    pub fn plan(options: &Options, frames: &[Frame], are_parts: bool) -> Result<Self, Failure> {
         let picture = options.output.as_deref();
         let picture = picture.ok_or_else(|| Failure::usage("no output: give -o OUT.png or OUT.exr"))?;
         let is_layered = extension_is(Path::new(picture), "exr");
-        if !is_layered && !extension_is(Path::new(picture), "png") {
+        if are_parts && !extension_is(Path::new(picture), "partial") {
+            return Err(Failure::usage(format!("-o {picture}: a part's name must end in .partial")));
+        }
+        if !is_layered && !are_parts && !extension_is(Path::new(picture), "png") {
             return Err(Failure::usage(format!("-o {picture}: a picture's name must end in .png or .exr")));
         }
         if let (true, Some(show)) = (is_layered, options.show) {

@@ -17,6 +17,9 @@ pub(crate) fn pyramid_texels(size: [u32; 2]) -> u64 {
     (0..level_count(size)).map(level).sum()
 }
 
+/// The pass's name in timings.
+const SPLAT: &str = "splat-thickness";
+
 /// Of any picture: each level halves the one below, from at most 2^20 texels.
 const MOST_LEVELS: u32 = 20;
 
@@ -97,23 +100,24 @@ impl Thickness {
         }
     }
 
-    /// Sums the chords of all particles, as far as the scene lets them be seen, and writes the thickness, not blurred,
-    /// into the first of `thickness.images`.
-    pub fn splat(
+    /// Empties the sums, and takes the scene's depth for them.
+    pub fn clear(
         &self,
         recorder: &mut Recorder<'_>,
-        name: &str,
-        particles: &[Chunk],
         scene_depth: Option<&wgpu::TextureView>,
         thickness: &ThicknessImages,
     ) {
-        let occlusion = &thickness.occlusion;
         if let Some(scene_depth) = scene_depth {
-            recorder.clear(&occlusion.between);
-            self.scene_ranges(recorder, name, scene_depth, thickness);
+            recorder.clear(&thickness.occlusion.between);
+            self.scene_ranges(recorder, scene_depth, thickness);
         }
         recorder.clear(&thickness.sums);
         recorder.clear(&thickness.levels_used);
+    }
+
+    /// Adds the chords of particles, as far as the scene lets them be seen.
+    pub fn splat(&self, recorder: &mut Recorder<'_>, particles: &[Chunk], thickness: &ThicknessImages) {
+        let occlusion = &thickness.occlusion;
         for chunk in particles {
             let kernel = if chunk.shapes.is_some() { &self.ellipsoids } else { &self.spheres };
             let [positions, densities, shapes] = chunk.bindings();
@@ -126,8 +130,13 @@ impl Thickness {
                 occlusion.ranges.as_entire_binding(),
                 occlusion.between.as_entire_binding(),
             ];
-            recorder.run(name, kernel, &resources, &Grid::Items(chunk.count, 64));
+            recorder.run(SPLAT, kernel, &resources, &Grid::Items(chunk.count, 64));
         }
+    }
+
+    /// Writes the thickness, not blurred, into the first of `thickness.images`.
+    pub fn collapse(&self, recorder: &mut Recorder<'_>, thickness: &ThicknessImages) {
+        let occlusion = &thickness.occlusion;
         let resources = [
             thickness.sums.as_entire_binding(),
             thickness.levels_used.as_entire_binding(),
@@ -136,17 +145,11 @@ impl Thickness {
             occlusion.ranges.as_entire_binding(),
             occlusion.hidden.as_entire_binding(),
         ];
-        recorder.run(name, &self.collapse, &resources, &Grid::Image(thickness.size));
+        recorder.run(SPLAT, &self.collapse, &resources, &Grid::Image(thickness.size));
     }
 
     /// Writes the ranges of depth of the scene, level by level.
-    fn scene_ranges(
-        &self,
-        recorder: &mut Recorder<'_>,
-        name: &str,
-        scene_depth: &wgpu::TextureView,
-        thickness: &ThicknessImages,
-    ) {
+    fn scene_ranges(&self, recorder: &mut Recorder<'_>, scene_depth: &wgpu::TextureView, thickness: &ThicknessImages) {
         let levels = self.level_numbers.iter().zip(0..level_count(thickness.size));
         for (number, level) in levels {
             let kernel = if level == 0 { &self.scene_range } else { &self.coarser_range };
@@ -155,7 +158,7 @@ impl Thickness {
                 thickness.occlusion.ranges.as_entire_binding(),
                 number.as_entire_binding(),
             ];
-            recorder.run(name, kernel, &resources, &Grid::Image(thickness.size.map(|side| side.div_ceil(1 << level))));
+            recorder.run(SPLAT, kernel, &resources, &Grid::Image(thickness.size.map(|side| side.div_ceil(1 << level))));
         }
     }
 

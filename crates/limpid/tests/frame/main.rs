@@ -18,6 +18,7 @@ mod normals;
 mod occlusion;
 mod optics;
 mod paint;
+mod parts;
 mod refusals;
 mod resolution;
 mod samples;
