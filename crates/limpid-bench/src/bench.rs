@@ -9,8 +9,7 @@ use limpid::{
     Bounds, Environment, Frame, Framing, ParticleSlices, Particles, PassTime, Profiler, Radius, Renderer, Scene,
     TargetFormat, TargetViews, View,
 };
-use limpid_headless::{Download, Error, Gpu};
-use pollster::block_on;
+use limpid_headless::{Download, Error, Gpu, guarded};
 use std::time::Instant;
 
 const FORMAT: TargetFormat = TargetFormat { color: wgpu::TextureFormat::Rgba16Float, depth: None, samples: 1 };
@@ -64,6 +63,10 @@ impl Bench {
     /// # Errors
     /// More than the device can hold, or a device that fails.
     pub fn measure(&mut self, case: &Case, runs: usize) -> Result<Measurement, Error> {
+        guarded(&self.gpu.device.clone(), || self.measure_frames(case, runs))
+    }
+
+    fn measure_frames(&mut self, case: &Case, runs: usize) -> Result<Measurement, Error> {
         // The old one goes first: they may not fit beside each other.
         let set = match self.set.take().filter(|set| set.wanted == case.particles) {
             Some(set) => set,
@@ -112,7 +115,8 @@ impl Bench {
             density: None,
         };
         let begin = Instant::now();
-        let particles = self.guarded(|gpu| Ok(Particles::upload(&gpu.device, &gpu.queue, &slices)?))?;
+        let Gpu { device, queue, .. } = &self.gpu;
+        let particles = Particles::upload(device, queue, &slices)?;
         self.gpu.queue.submit([]);
         self.wait()?;
         let upload_ms = begin.elapsed().as_secs_f64() * 1e3;
@@ -147,7 +151,6 @@ impl Bench {
         if is_timed {
             self.renderer.set_profiler(Profiler::new(device, queue));
         }
-        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let frame = Frame {
             particles: &set.particles,
             view: &stage.view,
@@ -173,9 +176,6 @@ impl Bench {
         let waited = wait(device);
         let wall_ms = begin.elapsed().as_secs_f64() * 1e3;
         let profiler = self.renderer.set_profiler(None);
-        if let Some(error) = block_on(memory.pop()) {
-            return Err(Error::Device(error.to_string()));
-        }
         prepared?;
         waited?;
         let passes = profiler.map(|mut profiler| profiler.read(device)).unwrap_or_default();
@@ -193,16 +193,6 @@ impl Bench {
         self.wait()?;
         let bytes = download.bytes(device).unwrap_or_else(|| Err(Error::Device("nothing was read back".into())))?;
         Ok(bytes.as_chunks::<4>().0.iter().map(|word| f32::from_le_bytes(*word)).collect())
-    }
-
-    /// Tells of a lack of memory in place of wgpu's panic.
-    fn guarded<T>(&self, work: impl FnOnce(&Gpu) -> Result<T, Error>) -> Result<T, Error> {
-        let memory = self.gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let result = work(&self.gpu);
-        match block_on(memory.pop()) {
-            Some(error) => Err(Error::Device(error.to_string())),
-            None => result,
-        }
     }
 
     fn wait(&self) -> Result<(), Error> {

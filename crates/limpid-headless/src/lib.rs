@@ -2,6 +2,7 @@
 
 mod aov;
 mod gpu;
+mod guard;
 mod motion;
 mod offscreen;
 mod painter;
@@ -13,6 +14,7 @@ mod show;
 
 pub use aov::{Aov, Image};
 pub use gpu::{AdapterInfo, Gpu, adapters, choose, device_descriptor};
+pub use guard::guarded;
 pub use limpid::PassTime;
 pub use offscreen::Offscreen;
 pub use painter::Painter;

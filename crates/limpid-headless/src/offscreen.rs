@@ -1,5 +1,6 @@
 //! A whole picture, off screen: drawn, and everything read back.
 
+use crate::guard::guarded;
 use crate::samples::{Mean, mixes, sample_offset_px};
 use crate::{Aov, Background, Error, Gpu, Image, Painter, Picture, Shot, Timings, motion, readback};
 use limpid::{Partial, ParticleSlices, Particles, PassTime, Profiler, Radius};
@@ -18,12 +19,8 @@ impl Offscreen {
     /// # Errors
     /// The driver refuses a pipeline.
     pub fn new(gpu: Gpu) -> Result<Self, Error> {
-        let guard = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let painter = Painter::new(&gpu.device, &gpu.queue);
-        match pollster::block_on(guard.pop()) {
-            Some(error) => Err(Error::Device(error.to_string())),
-            None => Ok(Self { gpu, painter }),
-        }
+        let painter = guarded(&gpu.device, || Ok(Painter::new(&gpu.device, &gpu.queue)))?;
+        Ok(Self { gpu, painter })
     }
 
     /// What it runs on.
@@ -46,6 +43,10 @@ impl Offscreen {
     /// # Errors
     /// As [`Self::render`]; settings that want all particles at once.
     pub fn partial(&mut self, shot: &Shot<'_>, part: Range<usize>) -> Result<Partial, Error> {
+        guarded(&self.gpu.device.clone(), || self.draw_partial(shot, part))
+    }
+
+    fn draw_partial(&mut self, shot: &Shot<'_>, part: Range<usize>) -> Result<Partial, Error> {
         let all = shot.particles;
         let slices = ParticleSlices {
             origin: all.origin,
@@ -81,6 +82,10 @@ impl Offscreen {
     /// # Errors
     /// A shot that cannot be drawn, or a device that fails or is lost.
     pub fn render(&mut self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
+        guarded(&self.gpu.device.clone(), || self.render_samples(shot, aovs))
+    }
+
+    fn render_samples(&mut self, shot: &Shot<'_>, aovs: &[Aov]) -> Result<Picture, Error> {
         let particles = self.upload(shot)?;
         let mut mean = Mean::of(self.sample(shot, &particles, aovs)?);
         let mixing: Vec<Aov> = aovs.iter().copied().filter(|aov| mixes(*aov)).collect();
@@ -124,6 +129,10 @@ impl Offscreen {
     /// # Errors
     /// As [`Self::render`].
     pub fn time(&mut self, shot: &Shot<'_>, runs: usize) -> Result<Timings, Error> {
+        guarded(&self.gpu.device.clone(), || self.time_frames(shot, runs))
+    }
+
+    fn time_frames(&mut self, shot: &Shot<'_>, runs: usize) -> Result<Timings, Error> {
         let mut upload_ms = Vec::new();
         let mut frame_ms = Vec::new();
         let mut passes: Vec<Vec<PassTime>> = Vec::new();
@@ -161,21 +170,10 @@ impl Offscreen {
     /// Draws everything up to [`Painter::shown`].
     fn submit(&mut self, shot: &Shot<'_>, particles: &Particles) -> Result<(), Error> {
         let Gpu { device, queue, .. } = &self.gpu;
-        let guard = (
-            device.push_error_scope(wgpu::ErrorFilter::OutOfMemory),
-            device.push_error_scope(wgpu::ErrorFilter::Validation),
-        );
         let mut encoder = device.create_command_encoder(&Default::default());
-        let drawn = self.painter.draw(device, queue, &mut encoder, shot, particles);
-        if drawn.is_ok() {
-            queue.submit([encoder.finish()]);
-        }
-        let (memory, validation) = guard;
-        let failure = pollster::block_on(validation.pop()).or(pollster::block_on(memory.pop()));
-        match failure {
-            Some(error) => Err(Error::Device(one_line(&error.to_string()))),
-            None => drawn,
-        }
+        self.painter.draw(device, queue, &mut encoder, shot, particles)?;
+        queue.submit([encoder.finish()]);
+        Ok(())
     }
 
     fn read_picture(&self) -> Result<Vec<u8>, Error> {
@@ -283,8 +281,4 @@ impl Offscreen {
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
-
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -6,4 +6,5 @@ mod host;
 
 mod buffers;
 mod frames;
+mod memory;
 mod studio;
