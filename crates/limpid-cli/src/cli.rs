@@ -4,6 +4,7 @@ use crate::bench::BenchArguments;
 use crate::failure::Failure;
 use crate::info::InfoArguments;
 use crate::render::RenderArguments;
+use crate::sample::SampleArguments;
 use crate::view::ViewArguments;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -27,6 +28,8 @@ pub enum Command {
     View(Box<ViewArguments>),
     /// Say what particle files hold
     Info(InfoArguments),
+    /// Make particles of a mesh, inside it or on its surface
+    Sample(SampleArguments),
     /// List the looks that --look knows, or print one as a file to copy and change
     Looks {
         /// The look to print

@@ -16,6 +16,14 @@ pub enum Failure {
     /// A mesh cannot be read.
     #[error(transparent)]
     Mesh(#[from] limpid_mesh::Error),
+    /// A mesh gives no points.
+    #[error("{}: {source}", path.display())]
+    Sample {
+        /// The mesh's file.
+        path: PathBuf,
+        /// Why.
+        source: limpid_mesh::sample::SampleError,
+    },
     /// The picture cannot be drawn.
     #[error(transparent)]
     Graphics(#[from] limpid_headless::Error),

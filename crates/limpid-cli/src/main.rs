@@ -10,6 +10,7 @@ mod info;
 mod looks;
 mod quiet_driver;
 mod render;
+mod sample;
 mod view;
 mod write;
 
@@ -34,6 +35,7 @@ fn run() -> Result<(), Failure> {
         Parsed::Command(Command::Render(arguments)) => render::run(arguments),
         Parsed::Command(Command::View(arguments)) => view::run(arguments),
         Parsed::Command(Command::Info(arguments)) => info::run(&arguments),
+        Parsed::Command(Command::Sample(arguments)) => sample::run(&arguments),
         Parsed::Command(Command::Looks { name }) => looks::run(name.as_deref()),
         Parsed::Command(Command::Adapters) => adapters::run(),
         Parsed::Command(Command::Bench(arguments)) => bench::run(&arguments),

@@ -2,7 +2,7 @@
 //!
 //! [`load`] gives the triangles of a file in world coordinates. A file that is broken, cut off or of another kind gives
 //! an error of one line that names it and says what to do; what can be done without (a missing texture) gives a warning.
-//! Memory is never reserved for more than a file can hold.
+//! Memory is never reserved for more than a file can hold. [`sample`] makes points of a mesh.
 
 mod accessor;
 mod error;
@@ -10,6 +10,7 @@ mod gltf;
 mod mtl;
 mod obj;
 mod ply;
+pub mod sample;
 mod stl;
 mod texture;
 
@@ -183,4 +184,9 @@ fn finite(numbers: &[f32]) -> bool {
 /// One channel of sRGB, 0 to 1, as linear light (IEC 61966-2-1).
 pub fn linear_of_srgb(value: f32) -> f32 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// One channel of linear light, 0 to 1, as sRGB (IEC 61966-2-1).
+pub fn srgb_of_linear(value: f32) -> f32 {
+    if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }

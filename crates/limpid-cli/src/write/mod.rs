@@ -4,11 +4,14 @@ mod atomic;
 mod exr;
 mod npy;
 mod png;
+mod points;
 
 pub use atomic::{check_writable, write_atomically};
+pub use points::PointFormat;
 
 use crate::failure::Failure;
 use limpid_headless::{Aov, Image, Picture};
+use limpid_mesh::sample::Points;
 use std::path::Path;
 
 /// Formats of numeric images.
@@ -47,4 +50,9 @@ pub fn write_aov(path: &Path, format: AovFormat, aov: Aov, image: &Image) -> Res
         AovFormat::Exr => exr::write(file, aov, image),
         AovFormat::Npy => npy::write(file, image),
     })
+}
+
+/// Writes points as particles of one radius.
+pub fn write_points(path: &Path, format: PointFormat, points: &Points, radius: f64) -> Result<(), Failure> {
+    write_atomically(path, |file| points::write(file, format, points, radius))
 }
