@@ -54,6 +54,7 @@
 mod agitation;
 mod backdrop;
 mod bodies;
+mod budget;
 mod caustics;
 mod detail;
 mod display;
@@ -84,6 +85,7 @@ pub use wgpu;
 pub use agitation::{Agitation, AgitationLimits};
 pub use backdrop::{Backdrop, BackdropFrame};
 pub use bodies::{Bodies, Body, Layer, Look, Material, Mesh, PartSlices, TextureSlices};
+pub use budget::Budget;
 pub use detail::{Detail, Foam};
 pub use display::{Display, ToneMap};
 pub use environment::{Environment, Lamp, MOST_LAMPS};
