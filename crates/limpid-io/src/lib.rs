@@ -8,6 +8,7 @@ mod bgeo;
 mod error;
 mod format;
 mod input;
+mod join;
 mod json;
 mod names;
 mod npy;
@@ -32,6 +33,7 @@ use std::sync::Arc;
 
 pub use error::ReadError;
 pub use format::Format;
+pub use join::{PHASE, join};
 pub use particles::{Attribute, Bounds, ParticleSet, PolygonMesh};
 pub use radius::{Radius, RadiusSource};
 pub use select::{Condition, Selection};

@@ -76,6 +76,17 @@ impl Condition {
         text.split("&&").map(str::parse).collect()
     }
 
+    /// Takes the particles that it does not hold for out of `those`.
+    ///
+    /// # Errors
+    /// An attribute that the file does not have.
+    pub fn test(&self, set: &ParticleSet, those: &mut [bool]) -> Result<(), ReadError> {
+        for (value, is_one) in set.scalars(&self.name)?.into_iter().zip(those) {
+            *is_one &= self.holds(value);
+        }
+        Ok(())
+    }
+
     fn holds(&self, value: f64) -> bool {
         match self.comparison {
             Comparison::Equal => value == self.value,
@@ -105,9 +116,7 @@ impl Selection {
         }
         let mut stays = vec![true; set.len()];
         for condition in &self.conditions {
-            for (value, stays) in set.scalars(&condition.name)?.into_iter().zip(&mut stays) {
-                *stays &= condition.holds(value);
-            }
+            condition.test(set, &mut stays)?;
         }
         if let Some(clip) = self.clip {
             for (position, stays) in set.positions.iter().zip(&mut stays) {

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::limits::{self, Range};
+use crate::liquid;
 use crate::look;
 use crate::number::short;
 use crate::options::{ALTERNATIVES, Options};
@@ -30,7 +31,11 @@ pub fn change(options: &Options, layer: &Options) -> Result<Options, Error> {
 fn finish(mut table: Table, layer: &Options) -> Result<Options, Error> {
     overlay(&mut table, layer).map_err(Error::usage)?;
     limits::check(&table)?;
-    table.try_into().map_err(|error: toml::de::Error| Error::Text(error.message().into()))
+    let made = table.try_into::<Options>();
+    let mut options = made.map_err(|error: toml::de::Error| Error::Text(error.message().into()))?;
+    liquid::settle(options.liquid.as_deref_mut().unwrap_or_default(), options.phase_by.as_deref())
+        .map_err(Error::usage)?;
+    Ok(options)
 }
 
 /// The fewest options that make these of the defaults.
@@ -56,7 +61,7 @@ pub fn flags(options: &Options) -> Result<Vec<String>, Error> {
     let mut flags = Vec::new();
     for (key, value) in difference(options)? {
         match value {
-            Value::Array(values) if values.iter().all(Value::is_str) => {
+            Value::Array(values) if values.iter().all(|value| value.is_str() || value.is_table()) => {
                 flags.extend(values.iter().map(|value| format!("--{key}={}", as_flag(value))));
             }
             value => flags.push(format!("--{key}={}", as_flag(&value))),
@@ -175,10 +180,11 @@ pub fn describe_options(command: Command) -> Command {
 }
 
 /// A value as it is written on the command line.
-fn as_flag(value: &Value) -> String {
+pub(crate) fn as_flag(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
         Value::Float(number) => short(*number),
+        Value::Table(liquid) => liquid::words(liquid),
         Value::Array(values) => values.iter().map(as_flag).collect::<Vec<_>>().join(","),
         value => value.to_string(),
     }
@@ -190,7 +196,9 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 34] = [
+    const NOT_NUMBERS: [&str; 36] = [
+        "phase-by",
+        "liquid",
         "color-by",
         "color-as",
         "colormap",

@@ -1,6 +1,8 @@
 //! The particles of one frame in the form that the renderer takes.
 
 use crate::Error;
+use crate::options::Options;
+use crate::phases::Phases;
 use crate::survey::Survey;
 use crate::tint::Tint;
 use glam::DVec3;
@@ -18,6 +20,26 @@ pub struct FrameParticles {
     velocities: Option<Vec<[f32; 3]>>,
     heat: Option<Vec<f32>>,
     colors: Option<Vec<[f32; 3]>>,
+    liquids: Option<Vec<u8>>,
+}
+
+/// What particles are told apart by in the picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Paints {
+    /// What colours them.
+    pub tint: Tint,
+    /// Which liquid they are.
+    pub phases: Phases,
+}
+
+impl Paints {
+    /// What the options ask for, for these frames.
+    ///
+    /// # Errors
+    /// No frame has what is asked for, or the range has no extent.
+    pub fn of(options: &Options, survey: &Survey) -> Result<Self, Error> {
+        Ok(Self { tint: Tint::of(options, survey)?, phases: Phases::of(options, survey)? })
+    }
 }
 
 enum Radii {
@@ -29,25 +51,32 @@ impl FrameParticles {
     /// Takes what is needed from a file; without copying it, if nobody else holds it.
     ///
     /// # Errors
-    /// The frame has no radius of its own where the others do, or lacks what its colours come from.
-    pub fn of(set: Arc<ParticleSet>, survey: &Survey, tint: &Tint) -> Result<Self, Error> {
+    /// The frame has no radius of its own where the others do, or lacks what its colours or liquids come from.
+    pub fn of(set: Arc<ParticleSet>, survey: &Survey, paints: &Paints) -> Result<Self, Error> {
         let density = set.attribute("density").filter(|attribute| attribute.components == 1);
         let density = density.map(|attribute| attribute.values.floats().into_owned());
+        // What has none is no stray.
+        let density = density.map(|values| values.into_iter().map(|d| if d.is_nan() { f32::MAX } else { d }).collect());
         let from_file = survey.radius_in_files() && !set.is_empty();
         let radii = match set.radii().filter(|_| from_file) {
             Some(radii) => Radii::Each(radii.to_vec()),
             None if from_file => Radii::Uniform(set.radius(None)?.value as f32),
             None => Radii::Uniform(survey.radius_world() as f32),
         };
+        let liquids = paints.phases.liquids(&set)?;
+        let radii = match &liquids {
+            Some(liquids) if paints.phases.has_radii() => radii.of_liquids(liquids, &paints.phases),
+            _ => radii,
+        };
         let ids = set.attribute("id").and_then(|attribute| match &attribute.values {
             Values::I64(ids) => Some(ids.clone()),
             _ => None,
         });
         let velocities = velocities_of(&set);
-        let colors = tint.colors(&set)?;
+        let colors = paints.tint.colors(&set)?;
         let origin = DVec3::from_array(set.origin);
         let positions = Arc::try_unwrap(set).map_or_else(|set| set.positions.clone(), |set| set.positions);
-        let mut frame = Self { origin, positions, radii, density, ids, velocities, heat: None, colors };
+        let mut frame = Self { origin, positions, radii, density, ids, velocities, heat: None, colors, liquids };
         frame.drop_points();
         Ok(frame)
     }
@@ -71,6 +100,9 @@ impl FrameParticles {
         }
         if let Some(colors) = &mut self.colors {
             keep(colors, &solid);
+        }
+        if let Some(liquids) = &mut self.liquids {
+            keep(liquids, &solid);
         }
         keep(radii, &solid);
     }
@@ -107,7 +139,7 @@ impl FrameParticles {
 
     /// What they are painted with.
     pub fn paint(&self) -> Paint<'_> {
-        Paint { colors: self.colors.as_deref(), liquids: None }
+        Paint { colors: self.colors.as_deref(), liquids: self.liquids.as_deref() }
     }
 
     /// The particles as the renderer takes them.
@@ -121,6 +153,19 @@ impl FrameParticles {
             },
             density: self.density.as_deref(),
         }
+    }
+}
+
+impl Radii {
+    /// These, but for liquids that have their own.
+    fn of_liquids(self, liquids: &[u8], phases: &Phases) -> Self {
+        let radius = |(index, liquid): (usize, &u8)| {
+            phases.radius(*liquid).unwrap_or(match &self {
+                Self::Uniform(radius) => *radius,
+                Self::Each(radii) => radii[index],
+            })
+        };
+        Self::Each(liquids.iter().enumerate().map(radius).collect())
     }
 }
 
@@ -152,10 +197,12 @@ mod tests {
             velocities: None,
             heat: None,
             colors: Some(vec![[0.0; 3], [0.5; 3], [1.0; 3]]),
+            liquids: Some(vec![1, 2, 3]),
         };
         frame.drop_points();
         assert_eq!(frame.ids(), Some(&[7, 9][..]));
         assert_eq!(frame.paint().colors, Some(&[[0.0; 3], [1.0; 3]][..]));
+        assert_eq!(frame.paint().liquids, Some(&[1, 3][..]));
         let slices = frame.slices();
         assert_eq!(slices.positions, [[0.0; 3], [2.0; 3]]);
         assert_eq!(slices.density, Some(&[5.0, 7.0][..]));

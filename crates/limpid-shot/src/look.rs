@@ -56,20 +56,28 @@ pub fn read(look: &str) -> Result<Options, String> {
 }
 
 fn of_text(text: &str) -> Result<Options, String> {
-    let said = as_table(&config::parse(text)?)?;
-    let mut whole = as_table(&Options::of_optics(&Optics::default()))?;
+    let mut water = Options::of_optics(&Optics::default());
     // How reflectance is worked out is no matter of the liquid.
-    whole.remove("fresnel");
-    let is_per_world = said.contains_key("absorption-per-world");
+    water.fresnel = None;
+    with(&water, &as_table(&config::parse(text)?)?)
+}
+
+/// A whole look, with some of it said anew.
+pub fn with(look: &Options, said: &Table) -> Result<Options, String> {
+    const UNITS: [&str; 2] = ["absorption", "absorption-per-world"];
+    let mut whole = as_table(look)?;
     for (key, value) in said {
-        if !whole.contains_key(&key) && key != "absorption-per-world" {
-            let keys: Vec<&str> = whole.keys().map(String::as_str).collect();
-            return Err(format!("{key} is not part of a look, which has {}, absorption-per-world", keys.join(", ")));
+        if !whole.contains_key(key) && !UNITS.contains(&key.as_str()) {
+            let keys: Vec<&str> = whole.keys().map(String::as_str).filter(|key| !UNITS.contains(key)).collect();
+            return Err(format!("{key} is not part of a look, which has {}, {}", keys.join(", "), UNITS.join(", ")));
         }
-        whole.insert(key, value);
+        if UNITS.contains(&key.as_str()) {
+            UNITS.iter().filter(|unit| !said.contains_key(**unit)).for_each(|unit| drop(whole.remove(*unit)));
+        }
+        whole.insert(key.clone(), value.clone());
     }
-    if is_per_world {
-        whole.remove("absorption");
+    if UNITS.iter().all(|unit| whole.contains_key(*unit)) {
+        return Err(format!("{} exclude each other: give one of them", UNITS.join(" and ")));
     }
     Value::Table(whole).try_into().map_err(|error: toml::de::Error| error.message().to_owned())
 }

@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::choice::{Axis, ColorAs, Named, Quality, choice};
 use crate::colormap::Colormap;
+use crate::liquid::Liquid;
 use crate::size::Size;
 use clap::{ArgAction, Args};
 use glam::DVec3;
@@ -232,6 +233,18 @@ pub struct Options {
     /// Exponent of the sun's highlight; higher is smaller and sharper
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Look")]
     pub shininess: Option<f64>,
+
+    /// Another liquid beside the first, mixed with it where they meet: what it is made of, a name or a file as --look has them;
+    /// which particles it is, by input=FILES (those of one frame belong together by their numbers), by where=CONDITION as
+    /// --where has them, or by phase=NUMBER; and what else is its own, radius=R or parts of the look, as in
+    /// 'oil input=oil_{}.vtk roughness=0.2'; may be given several times
+    #[arg(long, value_name = "LOOK KEY=VALUE ...", value_parser = str::parse::<Liquid>, action = ArgAction::Append,
+          help_heading = "Liquids")]
+    pub liquid: Option<Vec<Liquid>>,
+    /// Tell liquids in the same files apart by this attribute: particles are of the --liquid whose phase= is their number, by
+    /// default its place, from 1, and of the first liquid if there is none
+    #[arg(long, value_name = "ATTRIBUTE", help_heading = "Liquids")]
+    pub phase_by: Option<String>,
 
     /// Colour the particles by a number of each: an attribute's, the length of a vector, or x, y, z; `velocity` is the speed. Or by
     /// `color`, their own colours in the files
@@ -546,6 +559,9 @@ impl Options {
         set(&mut optics.specular, self.specular);
         set(&mut optics.shininess, self.shininess);
         settings.coloring = self.coloring();
+        for (place, liquid) in settings.other_liquids.iter_mut().zip(self.liquid.iter().flatten()) {
+            *place = Some(liquid.optics());
+        }
         settings
     }
 

@@ -7,7 +7,8 @@ use limpid_shot::{Options, Range, look};
 use toml::{Table, Value};
 
 /// Options that are no settings of the picture, or have places of their own in the window.
-const ELSEWHERE: [&str; 13] = [
+const ELSEWHERE: [&str; 14] = [
+    "liquid",
     "input",
     "output",
     "size",
@@ -161,6 +162,7 @@ fn absent(ui: &mut Ui, about: &About, book: &Book) -> Option<Value> {
         "absorption-per-world" => triple(book.options().absorption.unwrap_or([0.05; 3]).map(|a| 20.0 * a)),
         "absorption" => triple([0.045, 0.015, 0.0075]),
         "fov" => Value::Float(45.0),
+        "range" => Value::Array(vec![Value::Float(0.0), Value::Float(1.0)]),
         name if Range::of(name).is_some() => Value::Float(1.0),
         "mesh" | "light" => Value::Array(vec![Value::String(String::new())]),
         _ => Value::String(String::new()),

@@ -2,7 +2,7 @@
 
 use limpid_headless::{Painter, device_descriptor};
 use limpid_io::ParticleSet;
-use limpid_shot::{FrameParticles, Options, Props, Size, Stage, Survey, Tint, config};
+use limpid_shot::{FrameParticles, Options, Paints, Props, Size, Stage, Survey, config};
 use std::sync::Arc;
 use wasm_bindgen::prelude::*;
 
@@ -93,8 +93,8 @@ impl Fluid {
         let options = Options { size: Some(Size(size)), ..self.options.clone() };
         survey.settle(&options)?;
         let stage = Stage::of(&options, survey, &Props::default())?;
-        let tint = Tint::of(&options, survey)?;
-        let frame = FrameParticles::of(Arc::clone(set), survey, &tint)?;
+        let paints = Paints::of(&options, survey)?;
+        let frame = FrameParticles::of(Arc::clone(set), survey, &paints)?;
         let shot = stage.shot(&options, &frame, &[]);
         let particles = Painter::upload(&self.device, &self.queue, &shot)?;
         let mut encoder = self.device.create_command_encoder(&Default::default());

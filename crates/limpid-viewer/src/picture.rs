@@ -5,7 +5,7 @@ use eframe::egui_wgpu::{RenderState, wgpu};
 use limpid::{Body, Particles, PassTime, Profiler};
 use limpid_headless::{Aov, Download, Painter, Peek, Shot, mean_of, sample_offset_px};
 use limpid_io::Frame;
-use limpid_shot::{Error, FrameParticles, Legend, Living, Options, Pose, Props, Stage, Survey, Tint};
+use limpid_shot::{Error, FrameParticles, Legend, Living, Options, Paints, Pose, Props, Stage, Survey};
 use std::sync::Arc;
 
 /// A picture in the window, with all that it takes to draw it again.
@@ -51,7 +51,7 @@ struct Key {
     index: usize,
     radius: u64,
     detail: Option<Options>,
-    tint: Tint,
+    paints: Paints,
 }
 
 /// What to draw.
@@ -120,19 +120,19 @@ impl Picture {
         let Wanted { options, survey, .. } = &wanted;
         let stage = Stage::of(options, survey, wanted.props)?;
         let settings = options.settings();
-        let tint = Tint::of(options, survey)?;
-        self.legend = Legend::of(options, &tint);
+        let paints = Paints::of(options, survey)?;
+        self.legend = Legend::of(options, &paints.tint);
         let key = Key {
             generation: wanted.generation,
             index: wanted.index,
             radius: survey.radius_world().to_bits(),
             detail: settings.detail.is_on().then(|| living_part(options)),
-            tint,
+            paints,
         };
         let is_new = self.loaded.as_ref().is_none_or(|loaded| loaded.key != key);
         let mut fresh = None;
         if is_new {
-            let mut frame = FrameParticles::of(Arc::clone(wanted.set), survey, &key.tint)?;
+            let mut frame = FrameParticles::of(Arc::clone(wanted.set), survey, &key.paints)?;
             let part = living_part(options);
             if self.living.as_ref().is_none_or(|(before, _)| *before != part) {
                 self.living = Some((part, Living::new(options)));

@@ -10,8 +10,8 @@ use crate::write::{write_aov, write_layers, write_picture};
 use crate::{console, environment};
 use clap::Args;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
-use limpid_io::{Frame, ParticleSet, Selection};
-use limpid_shot::{FrameParticles, Legend, Living, Options, Props, Stage, Survey, Tint, config};
+use limpid_io::{Frame, ParticleSet};
+use limpid_shot::{FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
 use std::path::{Path, PathBuf};
@@ -44,10 +44,8 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         return console::print(&config::print(&options)?);
     }
     let quiet = options.quiet();
-    let inputs = options.inputs()?;
-    let selection = options.selection()?;
-    let mut sequence = limpid_io::expand(inputs)?;
-    sequence.select(options.start, options.end, options.step.unwrap_or(1))?;
+    let inputs = Inputs::of(&options)?;
+    let sequence = &inputs.sequence;
     if (arguments.part.is_some() || !arguments.partials.is_empty()) && sequence.frames.len() != 1 {
         let frames = sequence.frames.len();
         return Err(Failure::usage(format!(
@@ -66,13 +64,13 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         offscreen.set_environment(Some(&map)).map_err(bad)?;
     }
 
-    let read = |frame: &Frame| read(frame, &selection, options.radius);
+    let read = |frame: &Frame| Ok(Arc::new(inputs.read(frame)?));
     let mut survey = survey(&sequence.frames, &options, read)?;
     // A single frame is not read twice.
     let mut single = survey.take_largest().filter(|_| sequence.frames.len() == 1);
     let stage = Stage::of(&options, &survey, &props)?;
-    let tint = Tint::of(&options, &survey)?;
-    let legend = Legend::of(&options, &tint);
+    let paints = Paints::of(&options, &survey)?;
+    let legend = Legend::of(&options, &paints.tint);
     let meshes = props.upload(&offscreen.gpu().device, &offscreen.gpu().queue);
     let mut living = Living::new(&options);
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
@@ -81,7 +79,7 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
             Some(set) => set,
             None => read(frame)?,
         };
-        let mut particles = FrameParticles::of(set, &survey, &tint)?;
+        let mut particles = FrameParticles::of(set, &survey, &paints)?;
         let remarks = living.advance(frame, &mut particles);
         let bodies = props.at(frame, &meshes);
         let shot = stage.shot(&options, &particles, &bodies);
@@ -106,7 +104,7 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
             for warning in warnings.chain(&remarks.warnings) {
                 console::warn(warning);
             }
-            let notes = survey.radius_note().into_iter().chain(tint.note(&options));
+            let notes = survey.radius_note().into_iter().chain(paints.tint.note(&options));
             notes.filter(|_| !quiet).for_each(|note| console::note(&note));
         }
         if !quiet {
@@ -121,17 +119,6 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     }
     progress.finish();
     if !quiet { outputs.report() } else { Ok(()) }
-}
-
-/// A frame with what the options leave of it.
-fn read(frame: &Frame, selection: &Selection, radius: Option<f64>) -> Result<Arc<ParticleSet>, Failure> {
-    let mut set = limpid_io::read(&frame.path)?;
-    let read = set.len();
-    selection.apply(&mut set, radius)?;
-    if set.is_empty() && read > 0 {
-        set.warnings.push(format!("none of its {read} particles is left by --where, --clip and --drop-isolated"));
-    }
-    Ok(Arc::new(set))
 }
 
 /// Looks through all frames.
