@@ -5,6 +5,7 @@ mod appended;
 mod arrays;
 mod base64;
 mod payload;
+mod xz;
 
 use crate::error::{Fault, broken, quote};
 use crate::input::Input;

@@ -41,15 +41,11 @@ static TURN: Mutex<()> = Mutex::new(());
 /// More than the read buffers, and far less than what the headers of damaged files claim.
 const ALLOWED: usize = 4 << 20;
 
-/// What an LZMA stream may have for a dictionary, however short it is: 64 MiB by its strongest preset.
-const LZMA_DICTIONARY: usize = 66 << 20;
-
 fn read_frugally(folder: &Folder, name: &str, contents: &[u8]) -> Result<ParticleSet, ReadError> {
     LARGEST.store(0, Ordering::Relaxed);
     let result = folder.read(name, contents);
     let largest = LARGEST.load(Ordering::Relaxed);
-    let allowed = if name.contains("lzma") { LZMA_DICTIONARY } else { ALLOWED };
-    assert!(largest <= allowed, "{largest} bytes for {}", contents.escape_ascii());
+    assert!(largest <= ALLOWED, "{largest} bytes for {}", contents.escape_ascii());
     result
 }
 

@@ -3,19 +3,15 @@
 use std::io::{Cursor, Read};
 
 use flate2::read::ZlibDecoder;
-use lzma_rust2::{Action, Status, XzStream};
 use roxmltree::Node;
 
 use super::base64::Base64;
+use super::xz;
 use crate::error::{Fault, broken, quote};
 use crate::values::Encoding;
 
 /// LZ4 cannot pack tighter than this.
 const LZ4_RATIO: u64 = 255;
-
-/// The dictionary of the strongest preset, 64 MiB, and some: no stream of VTK's wants more.
-const XZ_MEMORY_KIB: u32 = 66 << 10;
-const XZ_CHUNK: u64 = 1 << 16;
 
 /// How a file writes binary arrays.
 pub(super) struct Layout<'a> {
@@ -136,30 +132,12 @@ impl Compressor {
                     Err(_) => return broken!("its compressed data is damaged"),
                 }
             }
-            Self::Lzma => unpack_xz(&packed, length, bytes)?,
+            Self::Lzma => xz::unpack(packed, length, bytes)?,
         }
         if (bytes.len() - before) as u64 != length {
             return broken!("a block holds {} bytes instead of {length}", bytes.len() - before);
         }
         Ok(())
-    }
-}
-
-/// Stops at `length` bytes, whatever the stream holds.
-fn unpack_xz(packed: &[u8], length: u64, bytes: &mut Vec<u8>) -> Result<(), Fault> {
-    let mut stream = XzStream::new_mem_limit(false, XZ_MEMORY_KIB);
-    let mut chunk = vec![0; (length.saturating_add(1)).min(XZ_CHUNK) as usize];
-    let (mut rest, mut left) = (packed, length);
-    loop {
-        let result = stream.process(rest, &mut chunk, Action::Finish)?;
-        rest = &rest[result.bytes_consumed..];
-        let produced = result.bytes_produced as u64;
-        bytes.extend_from_slice(&chunk[..produced.min(left) as usize]);
-        let is_stuck = produced == 0 && result.bytes_consumed == 0;
-        if produced > left || result.status == Status::StreamEnd || is_stuck {
-            return Ok(());
-        }
-        left -= produced;
     }
 }
 
