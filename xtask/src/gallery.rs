@@ -18,7 +18,19 @@ const RIGID: &[&str] = &[
 const JET: [&str; 4] =
     ["--size=800x450", "--bodies=data/jet/bodies.json", "--camera-eye=1.4,1.1,2.2", "--camera-target=0,0.25,0"];
 
+const DAM: [&str; 3] = ["--size=640x360", "--camera-eye=2.9,2.0,4.4", "--camera-target=0,0.9,0"];
+
 const ENTRIES: &[Entry] = &[
+    Entry(
+        "colours/speed.png",
+        "dam_break_double/ParticleData_Fluid_20.bgeo",
+        &[DAM[0], DAM[1], DAM[2], "--color-by=velocity", "--legend-unit=m/s"],
+    ),
+    Entry(
+        "colours/liquids.png",
+        "dam_break_double/ParticleData_Fluid_20.bgeo",
+        &[DAM[0], DAM[1], DAM[2], "--look=coffee", "--liquid=milk where=id>=12000"],
+    ),
     Entry(
         "water.png",
         "dam_break_double/ParticleData_Fluid_20.bgeo",
