@@ -1,6 +1,6 @@
 //! Buffers beside the picture.
 
-use limpid::{Detail, Filter, Foam, FrameBuffers, Settings, Shading, Smoothing, View};
+use limpid::{Detail, DropletsBuffer, Filter, Foam, FrameBuffers, Settings, Shading, Smoothing, View};
 
 /// A buffer that can be read back beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,6 +33,10 @@ pub enum Aov {
     Noise,
     /// Opacity of the foam on the surface.
     Foam,
+    /// Opacity of the droplets before the surface and in the air, where there is no fluid too.
+    Spray,
+    /// Opacity of the droplets behind the surface, before it bends what is seen of them.
+    Bubbles,
     /// Share of red, green and blue light that goes straight through the liquid along the ray, 0 to 1.
     Transmittance,
     /// Base colour of what the liquid scatters, linear RGB; 0 for a clear one.
@@ -56,7 +60,7 @@ const LAMP: [f32; 3] = [-0.6, 0.64, 0.48];
 
 impl Aov {
     /// Every one there is.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 23] = [
         Self::RawDepth,
         Self::Depth,
         Self::RawThickness,
@@ -71,6 +75,8 @@ impl Aov {
         Self::Curvature,
         Self::Noise,
         Self::Foam,
+        Self::Spray,
+        Self::Bubbles,
         Self::Transmittance,
         Self::Albedo,
         Self::Liquids,
@@ -97,6 +103,8 @@ impl Aov {
             Self::Curvature => "curvature",
             Self::Noise => "noise",
             Self::Foam => "foam",
+            Self::Spray => "spray",
+            Self::Bubbles => "bubbles",
             Self::Transmittance => "transmittance",
             Self::Albedo => "albedo",
             Self::Liquids => "liquids",
@@ -113,6 +121,7 @@ impl Aov {
             Self::RawDepth | Self::Depth | Self::RawThickness | Self::Thickness => 1,
             Self::BackDepth | Self::BeyondDepth | Self::FirstThickness => 1,
             Self::RawClay | Self::Clay | Self::Curvature | Self::Noise | Self::Foam => 1,
+            Self::Spray | Self::Bubbles => 1,
             Self::Motion => 2,
             Self::RawNormal | Self::Normal | Self::Transmittance | Self::Albedo | Self::Liquids => 3,
             Self::Passage => 3,
@@ -149,6 +158,15 @@ impl Aov {
         }
     }
 
+    /// Opacity at every pixel of a picture of `size`, from the sums of [`DropletsBuffer`] before the surface or behind it.
+    pub(crate) fn of_droplets(self, sums: &[u32], texels: [u32; 2], size: [u32; 2]) -> Vec<f32> {
+        let scale = size[0].div_ceil(texels[0]);
+        let plane = if self == Self::Bubbles { texels[0] * texels[1] } else { 0 };
+        let texel = |x: u32, y: u32| sums[(plane + y / scale * texels[0] + x / scale) as usize];
+        let opacity = |sum: u32| 1.0 - (-(sum as f32) * DropletsBuffer::COUNT).exp();
+        (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))).map(|(x, y)| opacity(texel(x, y))).collect()
+    }
+
     /// The image of what its buffer holds; `nearness` says where there is fluid.
     pub(crate) fn image(self, size: [u32; 2], words: &[f32], nearness: &[f32], view: &View) -> Image {
         let values = match self {
@@ -163,7 +181,7 @@ impl Aov {
             }
             Self::Transmittance | Self::Albedo | Self::Liquids => inside(words, nearness, of_whole_pixel),
             Self::Color => inside(words, nearness, |pixel| *pixel),
-            Self::BackDepth | Self::BeyondDepth => words.to_vec(),
+            Self::BackDepth | Self::BeyondDepth | Self::Spray | Self::Bubbles => words.to_vec(),
             Self::Picture | Self::Passage | Self::Motion => words.to_vec(),
         };
         Image { size, channels: self.channels(), values }

@@ -195,6 +195,10 @@ impl Offscreen {
                 let values = self.read_detail(shot.size, usize::from(*aov == Aov::Foam))?;
                 return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
             }
+            if let Aov::Spray | Aov::Bubbles = aov {
+                let values = self.read_droplets(shot.size, *aov)?;
+                return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
+            }
             if let Aov::BackDepth | Aov::BeyondDepth | Aov::FirstThickness = aov {
                 let values = self.read_layers(shot, *aov)?;
                 return Ok((*aov, aov.image(shot.size, &values, &nearness, &shot.view)));
@@ -220,6 +224,16 @@ impl Offscreen {
         let values = readback::read_words(&self.gpu.device, &self.gpu.queue, detail.values, count)?;
         let scale = size[0].div_ceil(detail.size[0]);
         Ok(pixels.map(|[x, y]| values[2 * (y / scale * detail.size[0] + x / scale) as usize + which]).collect())
+    }
+
+    /// Opacity of the droplets before or behind the surface at every pixel of the picture.
+    fn read_droplets(&self, size: [u32; 2], aov: Aov) -> Result<Vec<f32>, Error> {
+        let Some(droplets) = self.painter.renderer().droplets() else {
+            return Ok(vec![0.0; size[0] as usize * size[1] as usize]);
+        };
+        let count = 2 * droplets.size[0] as usize * droplets.size[1] as usize;
+        let sums = readback::read_words(&self.gpu.device, &self.gpu.queue, droplets.sums, count)?;
+        Ok(aov.of_droplets(&sums, droplets.size, size))
     }
 
     /// One value of the layers at every pixel of the picture.

@@ -155,6 +155,9 @@ impl Painter {
         if shot.settings.uses_paint() {
             particles.set_paint(device, queue, &shot.paint)?;
         }
+        if !shot.droplets.is_empty() {
+            particles.set_droplets(device, queue, shot.droplets)?;
+        }
         Ok(particles)
     }
 

@@ -34,6 +34,11 @@ impl Painter {
                 texels = detail.size;
                 Some(Download::of_words(device, encoder, detail.values, 2 * count(texels)))
             }
+            Aov::Spray | Aov::Bubbles => {
+                let droplets = self.renderer().droplets()?;
+                texels = droplets.size;
+                Some(Download::of_words(device, encoder, droplets.sums, 2 * count(texels)))
+            }
             _ => {
                 let curvature =
                     (aov == Aov::Curvature).then(|| self.renderer().mean_curvature(device, encoder)).flatten();
@@ -93,6 +98,9 @@ impl Peek {
                     .flat_map(|y| (0..shot.size[0]).map(move |x| (x, y)))
                     .map(|(x, y)| values[texel(x, y)])
                     .collect()
+            }
+            Aov::Spray | Aov::Bubbles => {
+                self.aov.of_droplets(&bytemuck::pod_collect_to_vec(bytes), self.texels, shot.size)
             }
             _ => bytemuck::pod_collect_to_vec(bytes),
         }

@@ -1,7 +1,7 @@
 //! What to draw, and what comes of it.
 
 use crate::Image;
-use limpid::{Body, Environment, Motion, Paint, ParticleSlices, PassTime, Settings, ToneMap, View};
+use limpid::{Body, Droplets, Environment, Motion, Paint, ParticleSlices, PassTime, Settings, ToneMap, View};
 
 /// What is behind the fluid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,6 +36,8 @@ pub struct Shot<'a> {
     pub motion: Motion<'a>,
     /// What its particles are painted with, for [`limpid::Settings::coloring`] and [`limpid::Settings::other_liquids`].
     pub paint: Paint<'a>,
+    /// Foam, spray and bubbles that are particles of their own.
+    pub droplets: &'a [Droplets<'a>],
     /// The camera.
     pub view: View,
     /// Pixels across and down.

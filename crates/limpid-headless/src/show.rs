@@ -8,7 +8,7 @@ const BALL: f32 = 1.5;
 
 impl Aov {
     /// An opaque sRGB picture of the buffer, 4 bytes a pixel: depths from near (white) to far, thickness from none (black)
-    /// to the most there is, normals as (n + 1) / 2, clay, foam and colours as light, noise from
+    /// to the most there is, normals as (n + 1) / 2, clay, foam, droplets and colours as light, noise from
     /// trough (dark) to crest (light), mean
     /// curvature as the 2009 paper's Fig. 8 (positive green, negative red, full brightness at that of a ball of 1.5 r);
     /// black where there is no fluid. `radius` is r, world units.
@@ -41,7 +41,7 @@ impl Aov {
                 let most = values.iter().fold(f32::MIN_POSITIVE, |most, v| most.max(v.abs()));
                 grey(values, |v| if v == 0.0 { 0.0 } else { 0.5 + 0.5 * v / most })
             }
-            Self::RawClay | Self::Clay | Self::Foam => grey(values, encode),
+            Self::RawClay | Self::Clay | Self::Foam | Self::Spray | Self::Bubbles => grey(values, encode),
             Self::Passage => values.as_chunks::<3>().0.iter().map(|rgb| rgb.map(encode)).collect(),
             Self::Motion => {
                 let (low, high) = range(values);

@@ -94,6 +94,7 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
         },
         motion: Motion::default(),
         paint: Paint::default(),
+        droplets: &[],
         view: framing.view(DVec3::Y, fov_y, aspect, 0.1 * radius),
         size: SIZE,
         settings: (golden.settings)(),

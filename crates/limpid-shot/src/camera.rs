@@ -78,6 +78,7 @@ impl Stage {
             particles: particles.slices(),
             motion: particles.motion(),
             paint: particles.paint(),
+            droplets: &[],
             view: self.view,
             size: options.size(),
             settings: options.settings(),

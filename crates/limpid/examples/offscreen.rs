@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         },
         motion: Motion::default(),
         paint: Paint::default(),
+        droplets: &[],
         view: framing.view(DVec3::Y, fov, aspect, radius * 0.1),
         size,
         settings: Settings::default(),

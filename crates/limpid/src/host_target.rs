@@ -22,7 +22,24 @@ impl TargetFormat {
     ) -> wgpu::RenderPipeline {
         let color = wgpu::ColorTargetState { format: self.color, blend, write_mask: wgpu::ColorWrites::ALL };
         let targets = [Some(color)];
-        pipeline(device, module, fragment, layouts, &targets, (self.depth, self.samples))
+        pipeline(device, module, fragment, layouts, &targets, (self.depth.map(tested_and_written), self.samples))
+    }
+
+    /// One that covers what is there whatever its depth, and leaves the depth alone.
+    pub(crate) fn overlay_pipeline(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        fragment: &str,
+        layouts: &[Option<&wgpu::BindGroupLayout>],
+    ) -> wgpu::RenderPipeline {
+        let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let color = wgpu::ColorTargetState { format: self.color, blend, write_mask: wgpu::ColorWrites::ALL };
+        let untouched = |(format, _)| wgpu::DepthStencilState {
+            depth_write_enabled: Some(false),
+            ..tested_and_written((format, wgpu::CompareFunction::Always))
+        };
+        pipeline(device, module, fragment, layouts, &[Some(color)], (self.depth.map(untouched), self.samples))
     }
 }
 
@@ -34,7 +51,18 @@ pub(crate) fn depth_pipeline(
     layouts: &[Option<&wgpu::BindGroupLayout>],
     format: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
-    pipeline(device, module, fragment, layouts, &[], (Some((format, wgpu::CompareFunction::Always)), 1))
+    let depth = tested_and_written((format, wgpu::CompareFunction::Always));
+    pipeline(device, module, fragment, layouts, &[], (Some(depth), 1))
+}
+
+fn tested_and_written((format, compare): (wgpu::TextureFormat, wgpu::CompareFunction)) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(compare),
+        stencil: Default::default(),
+        bias: Default::default(),
+    }
 }
 
 fn pipeline(
@@ -43,7 +71,7 @@ fn pipeline(
     fragment: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
     targets: &[Option<wgpu::ColorTargetState>],
-    (depth, samples): (Option<(wgpu::TextureFormat, wgpu::CompareFunction)>, u32),
+    (depth, samples): (Option<wgpu::DepthStencilState>, u32),
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(fragment),
@@ -60,13 +88,7 @@ fn pipeline(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: depth.map(|(format, compare)| wgpu::DepthStencilState {
-            format,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(compare),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
+        depth_stencil: depth,
         multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module,

@@ -4,7 +4,7 @@ use crate::bodies::BodyUniform;
 use crate::caustics::LensUniform;
 use crate::display::DisplayUniform;
 use crate::environment::{EnvironmentUniform, LightUniform};
-use crate::passes::{DetailUniform, GatherUniform, LiquidsUniform, OpticsUniform, PaintUniform};
+use crate::passes::{DetailUniform, DropletsUniform, GatherUniform, LiquidsUniform, OpticsUniform, PaintUniform};
 use crate::renderer::SettingsUniform;
 use crate::view::ViewUniform;
 use std::mem::offset_of;
@@ -24,6 +24,8 @@ const SHADE: &str = concat!(
     include_str!("passes/thickness_levels.wgsl"),
     include_str!("passes/paint_sums.wgsl"),
     include_str!("passes/paint_optics.wgsl"),
+    include_str!("passes/droplets_image.wgsl"),
+    include_str!("passes/droplets_behind.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
 
@@ -176,6 +178,12 @@ fn detail() {
         padding
     });
     assert_same(rust, wgsl_layout(DETAIL, "Detail"));
+}
+
+#[test]
+fn droplets() {
+    let rust = rust_layout!(DropletsUniform { color, density, shutter, fade, foam_lift, bubble_lift });
+    assert_same(rust, wgsl_layout(SHADE, "Droplets"));
 }
 
 #[test]

@@ -58,6 +58,7 @@ mod budget;
 mod caustics;
 mod detail;
 mod display;
+mod droplets;
 mod environment;
 mod environment_map;
 mod error;
@@ -88,6 +89,7 @@ pub use bodies::{Bodies, Body, Layer, Look, Material, Mesh, PartSlices, TextureS
 pub use budget::Budget;
 pub use detail::{Detail, Foam};
 pub use display::{Display, ToneMap};
+pub use droplets::{BUBBLES_UNDER, Droplet, DropletKind, Droplets, FOAM_AFLOAT};
 pub use environment::{Environment, Lamp, MOST_LAMPS};
 pub use environment_map::EnvironmentMap;
 pub use error::Error;
@@ -99,7 +101,9 @@ pub use paint::{Coloring, MOST_LIQUIDS, Paint};
 pub use partial::Partial;
 pub use particle_buffers::{Column, ParticleBuffers, RadiusColumn};
 pub use particles::{ParticleSlices, Particles, Radius};
-pub use renderer::{DetailBuffer, EllipsoidBuffers, Frame, FrameBuffers, LayersBuffer, PartialBuffers, Renderer};
+pub use renderer::{
+    DetailBuffer, DropletsBuffer, EllipsoidBuffers, Frame, FrameBuffers, LayersBuffer, PartialBuffers, Renderer,
+};
 pub use scene::Scene;
 pub use settings::{
     Absorption, Anisotropy, CurvatureFlow, Filter, Fresnel, Optics, Scale, Settings, Shading, Smoothing,

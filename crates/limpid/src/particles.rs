@@ -1,7 +1,8 @@
 //! Particles on the GPU.
 
+use crate::droplets::PackedDroplet;
 use crate::paint::PaintAverage;
-use crate::{Error, Motion, Paint};
+use crate::{Droplets, Error, Motion, Paint};
 use glam::DVec3;
 
 /// Particle arrays of the host's, not copied. World position = origin + position.
@@ -88,6 +89,20 @@ pub struct Particles {
     /// `paint_sums.wgsl`'s vec2u of each particle, a buffer for each chunk; empty: all are alike.
     paints: Vec<wgpu::Buffer>,
     paint_average: Option<PaintAverage>,
+    droplets: Vec<DropletChunk>,
+}
+
+/// Droplets that one dispatch can bind.
+pub(crate) struct DropletChunk {
+    pub count: u64,
+    /// `droplets_splat.wgsl`'s `Droplet`.
+    buffer: wgpu::Buffer,
+}
+
+impl DropletChunk {
+    pub fn binding(&self) -> wgpu::BindingResource<'_> {
+        first_bytes(&self.buffer, size_of::<PackedDroplet>() as u64 * self.count)
+    }
 }
 
 /// Particles that one dispatch can bind, as the balls that `ball.wgsl` reads. Buffers may be larger.
@@ -184,6 +199,7 @@ impl Particles {
             motions: Vec::new(),
             paints: Vec::new(),
             paint_average: None,
+            droplets: Vec::new(),
         }
     }
 
@@ -226,6 +242,31 @@ impl Particles {
         self.paints = self.chunks.iter().map(buffer).collect();
         self.paint_average = Some(paint.average(count));
         Ok(())
+    }
+
+    /// Copies foam, spray and bubbles to the device, 32 bytes each, in place of those there were. They are drawn with the fluid.
+    ///
+    /// # Errors
+    /// Arrays of different lengths.
+    pub fn set_droplets(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        droplets: &[Droplets<'_>],
+    ) -> Result<(), Error> {
+        droplets.iter().try_for_each(Droplets::check)?;
+        let packed: Vec<PackedDroplet> = droplets.iter().flat_map(Droplets::packed).collect();
+        let most = largest_binding(device) as usize / size_of::<PackedDroplet>();
+        let chunk = |packed: &[PackedDroplet]| DropletChunk {
+            count: packed.len() as u64,
+            buffer: filled_buffer(device, queue, "droplets", bytemuck::cast_slice(packed)),
+        };
+        self.droplets = packed.chunks(most).map(chunk).collect();
+        Ok(())
+    }
+
+    pub(crate) fn droplets(&self) -> &[DropletChunk] {
+        &self.droplets
     }
 
     /// A buffer for each chunk.

@@ -7,8 +7,9 @@ use crate::environment::ShadowTint;
 use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::partial::Conditions;
 use crate::passes::{
-    Composite, Curvature, Detail, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform, Normals, Paint, PaintLayout,
-    ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, level_count,
+    Composite, Curvature, Detail, DropletImages, DropletsPass, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform,
+    Normals, Paint, PaintLayout, ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
+    level_count,
 };
 use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
@@ -87,6 +88,9 @@ pub struct Renderer {
     composite: Composite,
     curvature: Curvature,
     /// Made when first asked for.
+    droplets: Option<DropletsPass>,
+    target: TargetFormat,
+    /// Made when first asked for.
     gather: Option<Gather>,
     /// Made when first asked for.
     resolve_depth: Option<ResolveDepth>,
@@ -129,6 +133,13 @@ struct Prepared {
     has_layers: bool,
     /// Noise and foam at the fluid's own resolution.
     detail: Option<wgpu::Buffer>,
+    droplets: Option<PreparedDroplets>,
+}
+
+/// Droplets of a frame, at the fluid's own resolution.
+struct PreparedDroplets {
+    sums: wgpu::Buffer,
+    images: wgpu::BindGroup,
 }
 
 /// Stand-ins for a scene's textures where there is no scene.
@@ -184,6 +195,8 @@ impl Renderer {
             upsample: Upsample::new(device, &layout),
             composite: Composite::new(device, &layout, target),
             curvature: Curvature::new(device, &layout),
+            droplets: None,
+            target: *target,
             gather: None,
             resolve_depth: None,
             layers: None,
@@ -219,6 +232,8 @@ impl Renderer {
             upsample: self.upsample.clone(),
             composite: self.composite.clone(),
             curvature: self.curvature.clone(),
+            droplets: self.droplets.clone(),
+            target: self.target,
             gather: self.gather.clone(),
             resolve_depth: self.resolve_depth.as_ref().map(ResolveDepth::sibling),
             layers: self.layers.as_ref().map(Layers::sibling),
@@ -470,6 +485,12 @@ impl Renderer {
             self.paint.encode(recorder, queue, layout, particles, smoothed, scene.depth, &targets)
         });
         let paint_sums = paint_sums.as_ref().unwrap_or(self.paint.nothing());
+        let droplets = (!particles.droplets().is_empty()).then(|| {
+            let layout = &self.frame_layout;
+            self.shade.reserve_droplets(device, layout);
+            let pass = self.droplets.get_or_insert_with(|| DropletsPass::new(device, layout, &self.target));
+            pass.encode(recorder, queue, frame, smoothed, scene.depth, targets.size)
+        });
         let layers = self.layers.as_ref().filter(|_| settings.layers).and_then(|layers| {
             let passes = FluidPasses {
                 tiles: &self.tiles,
@@ -483,7 +504,8 @@ impl Renderer {
             };
             layers.encode(recorder, queue, frame, &passes, (smoothed, &targets))
         });
-        self.shade.encode(recorder, smoothed, &scene, self.shadow.map(), layers, paint_sums, &targets);
+        let shadow = self.shadow.map();
+        self.shade.encode(recorder, smoothed, &scene, shadow, layers, paint_sums, droplets.as_ref(), &targets);
         if let Some(detail) = detail.as_ref().filter(|_| settings.detail.foam != Foam::Off) {
             self.detail.foam(recorder, detail, &targets);
         }
@@ -494,7 +516,13 @@ impl Renderer {
         let images = self.composite.bind(device, picture.nearness, picture.shaded);
         let nearness = picture.nearness.clone();
         let smoothed = smoothed.clone();
-        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed, has_layers: settings.layers, detail });
+        let prepared_droplets = |DropletImages { sums, uniform }| {
+            let images = self.droplets.as_ref()?.bind(device, &DropletImages { sums: sums.clone(), uniform });
+            Some(PreparedDroplets { sums, images })
+        };
+        let droplets = droplets.and_then(prepared_droplets);
+        let has_layers = settings.layers;
+        self.prepared = Some(Prepared { frame_group, images, nearness, smoothed, has_layers, detail, droplets });
         self.targets = Some(targets);
     }
 
@@ -503,6 +531,9 @@ impl Renderer {
     pub fn composite(&self, pass: &mut wgpu::RenderPass<'_>) {
         if let Some(prepared) = &self.prepared {
             self.composite.draw(pass, &prepared.frame_group, &prepared.images);
+            if let (Some(droplets), Some(pass_droplets)) = (&prepared.droplets, &self.droplets) {
+                pass_droplets.draw(pass, &prepared.frame_group, &droplets.images);
+            }
         }
     }
 
@@ -535,6 +566,13 @@ impl Renderer {
         let size = self.targets.as_ref()?.size;
         let values = self.prepared.as_ref()?.detail.as_ref()?;
         Some(DetailBuffer { size, values })
+    }
+
+    /// Droplets of the last prepared frame, for reading back; None where it had none.
+    pub fn droplets(&self) -> Option<DropletsBuffer<'_>> {
+        let size = self.targets.as_ref()?.size;
+        let sums = &self.prepared.as_ref()?.droplets.as_ref()?.sums;
+        Some(DropletsBuffer { size, sums })
     }
 
     /// The sheets behind the front surface in the last prepared frame, for reading back; None where they were not asked for.
@@ -585,6 +623,21 @@ pub struct DetailBuffer<'a> {
     /// Two f32 for each of them, row 0 at the top: height of the noise in r, opacity of the foam. Anything where there is no
     /// fluid.
     pub values: &'a wgpu::Buffer,
+}
+
+/// Droplets of one frame ([`Particles::set_droplets`]).
+#[derive(Clone, Copy)]
+pub struct DropletsBuffer<'a> {
+    /// The fluid's own pixels across and down, as in [`DetailBuffer::size`].
+    pub size: [u32; 2],
+    /// Three images of u32 after each other, row 0 at the top: optical depth of the droplets before the surface in counts of
+    /// [`Self::COUNT`]; of those behind it; and that times their distance behind it.
+    pub sums: &'a wgpu::Buffer,
+}
+
+impl DropletsBuffer<'_> {
+    /// Optical depth of one count; the opacity of an optical depth t is 1 - exp(-t).
+    pub const COUNT: f32 = 1.0 / 4096.0;
 }
 
 /// What is behind the front surface ([`Settings::layers`]).

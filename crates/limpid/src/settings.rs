@@ -1,7 +1,7 @@
 //! Every knob of the fluid's look. Lengths are in particle radii (r) unless a name says otherwise, so that a scene in
 //! millimetres looks like the same scene in metres.
 
-use crate::{Coloring, Detail, Error};
+use crate::{Coloring, Detail, Droplet, Error};
 
 /// How the fluid is drawn. `Settings::default()` looks good untouched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,8 @@ pub struct Settings {
     pub normal_step: f32,
     /// Noise and foam on the surface.
     pub detail: Detail,
+    /// How foam, spray and bubbles that are particles of their own look ([`crate::Particles::set_droplets`]).
+    pub droplet: Droplet,
     /// What light does in and on the liquid.
     pub optics: Optics,
     /// Looks of the liquids after the first ([`crate::Paint::liquids`]); None: as the first. Default: there is one liquid.
@@ -64,6 +66,7 @@ impl Default for Settings {
             layers: true,
             normal_step: 3.0,
             detail: Detail::default(),
+            droplet: Droplet::default(),
             optics: Optics::default(),
             other_liquids: [None; 7],
             coloring: Coloring::default(),
@@ -390,6 +393,7 @@ impl Settings {
         within("range", smoothing.range, 0.01..=1000.0, "from 0.01 to 1000")?;
         within("clamp", smoothing.clamp, 0.0..=1000.0, "from 0 to 1000")?;
         self.detail.check()?;
+        self.droplet.check()?;
         if let Coloring::Absorption(depth) = self.coloring {
             within("depth of colors", depth, 0.01..=1e4, "from 0.01 to 10000")?;
         }

@@ -217,7 +217,7 @@ impl Kernels {
             &images.layers,
         ];
         recorder.run("layers", &self.pack, &resources.map(wgpu::Buffer::as_entire_binding), &Grid::Image(size));
-        passes.shade.encode(recorder, beyond, passes.scene, passes.shadow, None, passes.no_paint, &images.beyond);
+        passes.shade.encode(recorder, beyond, passes.scene, passes.shadow, None, passes.no_paint, None, &images.beyond);
         let resources = [&images.beyond.shaded, &images.layers].map(wgpu::Buffer::as_entire_binding);
         recorder.run("layers", &self.pack_color, &resources, &Grid::Image(size));
     }

@@ -4,6 +4,7 @@ mod anisotropy;
 mod composite;
 mod curvature;
 mod detail;
+mod droplets;
 mod gather;
 mod layers;
 mod neighbours;
@@ -24,6 +25,9 @@ pub(crate) use curvature::Curvature;
 pub(crate) use detail::Detail;
 #[cfg(test)]
 pub(crate) use detail::DetailUniform;
+#[cfg(test)]
+pub(crate) use droplets::DropletsUniform;
+pub(crate) use droplets::{DropletImages, DropletsPass};
 pub(crate) use gather::Gather;
 #[cfg(test)]
 pub(crate) use gather::GatherUniform;

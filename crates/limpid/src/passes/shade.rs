@@ -1,6 +1,6 @@
 //! Shading: `shade.wgsl`.
 
-use super::{LiquidsUniform, module};
+use super::{DropletImages, LiquidsUniform, module};
 use crate::environment::EnvironmentUniform;
 use crate::gpu::{Grid, Kernel, Recorder, Slot, uniform_buffer};
 use crate::settings::{Fresnel, Optics};
@@ -57,12 +57,31 @@ pub(crate) struct SceneViews<'a> {
 pub(crate) struct Shade {
     plain: Kernel,
     layered: Kernel,
+    /// The same with droplets behind the surface; made when first asked for.
+    veiled: Option<[Kernel; 2]>,
     liquids: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
 
 impl Shade {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let [plain, layered] = Self::kernels(device, frame, false);
+        Self {
+            plain,
+            layered,
+            veiled: None,
+            liquids: uniform_buffer::<LiquidsUniform>(device, "liquids"),
+            environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
+        }
+    }
+
+    /// Readies what droplets behind the surface need.
+    pub fn reserve_droplets(&mut self, device: &wgpu::Device, frame: &wgpu::BindGroupLayout) {
+        self.veiled.get_or_insert_with(|| Self::kernels(device, frame, true));
+    }
+
+    /// Without layers and with them.
+    fn kernels(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, droplets: bool) -> [Kernel; 2] {
         let module = module!(
             device,
             "shade",
@@ -78,6 +97,8 @@ impl Shade {
             "thickness_levels.wgsl",
             "paint_sums.wgsl",
             "paint_optics.wgsl",
+            "droplets_image.wgsl",
+            "droplets_behind.wgsl",
             "shade.wgsl"
         );
         let slots = [
@@ -93,17 +114,13 @@ impl Shade {
             Slot::Color,
             Slot::Read,
             Slot::Read,
+            Slot::Read,
+            Slot::Uniform,
         ];
-        let kernel = |layers: bool| {
-            let constants = [("LAYERS", f64::from(u8::from(layers)))];
+        [false, true].map(|layers| {
+            let constants = [("LAYERS", f64::from(u8::from(layers))), ("DROPLETS", f64::from(u8::from(droplets)))];
             Kernel::with_constants(device, frame, &module, "shade", &slots, &constants)
-        };
-        Self {
-            plain: kernel(false),
-            layered: kernel(true),
-            liquids: uniform_buffer::<LiquidsUniform>(device, "liquids"),
-            environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
-        }
+        })
     }
 
     pub fn write(
@@ -117,7 +134,8 @@ impl Shade {
         recorder.write(queue, &self.environment, environment);
     }
 
-    /// Writes `targets.shaded`. `layers`: what is behind the front surface, if that is known.
+    /// Writes `targets.shaded`. `layers`: what is behind the front surface, if that is known. `droplets`: those behind it, after
+    /// [`Self::reserve_droplets`].
     #[expect(clippy::too_many_arguments, reason = "the images that shading reads, one from each pass before it")]
     pub fn encode(
         &self,
@@ -127,6 +145,7 @@ impl Shade {
         shadow: &wgpu::Buffer,
         layers: Option<&wgpu::Buffer>,
         paint_sums: &wgpu::Buffer,
+        droplets: Option<&DropletImages>,
         targets: &Targets,
     ) {
         let resources = [
@@ -142,8 +161,14 @@ impl Shade {
             wgpu::BindingResource::TextureView(scene.environment_map),
             layers.unwrap_or(smoothed).as_entire_binding(),
             paint_sums.as_entire_binding(),
+            droplets.map_or(smoothed, |droplets| &droplets.sums).as_entire_binding(),
+            droplets.map_or(&self.environment, |droplets| &droplets.uniform).as_entire_binding(),
         ];
-        let kernel = if layers.is_some() { &self.layered } else { &self.plain };
+        let [plain, layered] = match self.veiled.as_ref().filter(|_| droplets.is_some()) {
+            Some([plain, layered]) => [plain, layered],
+            None => [&self.plain, &self.layered],
+        };
+        let kernel = if layers.is_some() { layered } else { plain };
         recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));
     }
 }

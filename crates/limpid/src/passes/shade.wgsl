@@ -17,6 +17,11 @@
 override LAYERS: bool = false;
 
 @group(1) @binding(11) var<storage, read> paint_sums: array<u32>;
+@group(1) @binding(12) var<storage, read> droplet_sums: array<u32>; // droplets_image.wgsl's, or unused
+@group(1) @binding(13) var<uniform> droplets: Droplets; // or unused
+
+// Whether there are droplets in the liquid or behind it.
+override DROPLETS: bool = false;
 
 // The liquid of this invocation's pixel.
 var<private> optics: Optics;
@@ -142,9 +147,18 @@ fn color_of(sight: Sight) -> vec4f {
     let lit = light_on(world_from_view() * sight.normal, sunlight);
     let scattered = (1.0 - reflectance) * (1.0 - through) * scattered_color();
     let lamps = lamps_light(sight, scattered);
-    let own = surface_light(sight, reflectance, sunlight) + (1.0 - reflectance) * body_light(through, lit) + lamps;
-    let inner = (1.0 - reflectance) * through * (1.0 - behind.share) * behind.inner;
-    let transmitted = (1.0 - reflectance) * through * behind.share;
+    var body = body_light(through, lit);
+    var passed = (1.0 - reflectance) * through;
+    if DROPLETS {
+        // They hide what is behind them, and are seen through the liquid before them.
+        let veil = veil_behind(sight);
+        let until = body_transmittance(min(veil.distance, behind.thickness));
+        body = mix(body, body_light(until, lit) + until * droplets.color * lit, veil.opacity);
+        passed *= 1.0 - veil.opacity;
+    }
+    let own = surface_light(sight, reflectance, sunlight) + (1.0 - reflectance) * body + lamps;
+    let inner = passed * (1.0 - behind.share) * behind.inner;
+    let transmitted = passed * behind.share;
     let alpha = 1.0 - (1.0 - behind.color.a) * dot(transmitted, vec3f(1.0 / 3.0));
     return vec4f(own + inner + transmitted * behind.color.rgb, alpha);
 }

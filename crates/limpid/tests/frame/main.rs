@@ -9,6 +9,7 @@ mod caustics;
 mod composite;
 mod curvature_flow;
 mod detail;
+mod droplets;
 mod gaussian_windows;
 mod large_splats;
 mod laws;

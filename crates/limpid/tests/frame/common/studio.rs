@@ -36,6 +36,7 @@ pub fn shot_of<'a>(cloud: &'a Cloud, view: View, size: [u32; 2], settings: Setti
         particles: cloud.slices(),
         motion: Motion::default(),
         paint: Paint::default(),
+        droplets: &[],
         view,
         size,
         settings,

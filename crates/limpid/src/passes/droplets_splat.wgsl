@@ -1,0 +1,156 @@
+// Soft droplets: every pixel's ray gathers the optical depth of the droplets that it passes, before and behind the smoothed
+// surface. A droplet is drawn as what it covers while the shutter is open: all that is within its radius of its way.
+
+@group(1) @binding(0) var<storage, read> all: array<Droplet>;
+@group(1) @binding(1) var<uniform> droplets: Droplets;
+@group(1) @binding(2) var<storage, read> nearness: array<f32>; // smoothed
+@group(1) @binding(3) var scene_depth: texture_depth_2d;
+@group(1) @binding(4) var<storage, read_write> sums: array<atomic<u32>>; // droplets_image.wgsl's planes
+@group(1) @binding(5) var<storage, read_write> large: LargeSplats;
+
+struct Droplet {
+    place: vec3f, // local
+    radius: f32,
+    velocity: vec3f, // local, per second
+    life_kind: u32, // two f16: seconds left, KIND_*
+}
+
+const KIND_FOAM: f32 = 0.0;
+const KIND_BUBBLES: f32 = 2.0;
+
+struct LargeSplats {
+    groups: vec3u, // indirect dispatch of splat_large
+    count: atomic<u32>,
+    indices: array<u32>,
+}
+
+// Radius in pixels below which a droplet is drawn larger and thinner: smaller ones would flicker.
+const LEAST_PX: f32 = 1.0;
+// A moving droplet's optical depth falls so that its sum over the picture stays: with the profile (1 - q^2)^2 a disc has
+// pi R^2 / 3, a way of length L adds 16 / 15 R L.
+const SPREAD: f32 = 16.0 / (5.0 * 3.14159265);
+// Where sums stop growing: far below overflow, and far beyond opaque.
+const FULL: u32 = 0x3fffffffu;
+// Pixels in the bounding box above which a splat gets a workgroup of its own.
+const LARGE_PX: i32 = 1024;
+
+// The way of a droplet, view space.
+struct Streak {
+    start: vec3f,
+    along: vec3f, // to its end
+    radius: f32,
+    density: f32,
+    lift: f32, // world units towards the eye when compared with the surface
+    box: PixelBox,
+}
+
+// An empty box: out of sight.
+fn streak_of(index: u32) -> Streak {
+    let droplet = all[index];
+    let life_kind = unpack2x16float(droplet.life_kind);
+    let center = (view.view_from_local * vec4f(droplet.place, 1.0)).xyz;
+    var along = (view.view_from_local * vec4f(droplet.velocity, 0.0)).xyz * droplets.shutter;
+    let depth = -center.z;
+    let widest = max(droplet.radius, LEAST_PX / px_per_world(max(depth, view.near)));
+    let thinner = droplet.radius / widest;
+    // The way is shortened so that it ends at the near plane.
+    along *= min(1.0, max(depth - view.near, 0.0) / max(0.5 * abs(along.z), 1e-30));
+    let start = center - 0.5 * along;
+    var box = PixelBox(vec2i(0), vec2i(-1));
+    if depth > view.near {
+        let first = texel_box(sphere(start, widest), 1.0, view.size);
+        let last = texel_box(sphere(start + along, widest), 1.0, view.size);
+        box = PixelBox(min(first.min, last.min), max(first.max, last.max));
+    }
+    let alive = clamp(life_kind.x / max(droplets.fade, 1e-9), 0.0, 1.0);
+    let lift = select(0.0, droplets.foam_lift, life_kind.y == KIND_FOAM);
+    let density = droplets.density * alive * thinner * thinner;
+    return Streak(start, along, widest, density, select(lift, droplets.bubble_lift, life_kind.y == KIND_BUBBLES), box);
+}
+
+fn add(plane: u32, pixel: u32, value: f32) {
+    let index = plane * view.size.x * view.size.y + pixel;
+    let counts = u32(round(value));
+    if counts > 0u && atomicLoad(&sums[index]) < FULL {
+        atomicAdd(&sums[index], counts);
+    }
+}
+
+fn splat_pixel(streak: Streak, at: vec2i) {
+    let px = vec2f(at) + 0.5;
+    let ray = pixel_ray(px);
+    // Across the ray: its nearest distance to the way.
+    let squared = dot(ray.direction, ray.direction);
+    let from_eye = streak.start - ray.origin;
+    let start = from_eye - ray.direction * (dot(from_eye, ray.direction) / squared);
+    let along = streak.along - ray.direction * (dot(streak.along, ray.direction) / squared);
+    let length_squared = dot(along, along);
+    let part = clamp(-dot(start, along) / max(length_squared, 1e-36), 0.0, 1.0);
+    let offset = start + part * along;
+    let inside = max(1.0 - dot(offset, offset) / (streak.radius * streak.radius), 0.0);
+    let optical_depth = streak.density * inside * inside / (1.0 + SPREAD * sqrt(length_squared) / streak.radius);
+    if optical_depth <= 0.0 {
+        return;
+    }
+    let depth = dot(from_eye + part * streak.along, ray.direction) / squared;
+    let index = u32(at.y) * view.size.x + u32(at.x);
+    let near = nearness[index];
+    let surface = select(3.4e38, depth_of(near), near > 0.0);
+    // What is cut in two shows in part, so that nothing pops.
+    let diameter = 2.0 * streak.radius;
+    let shown = clamp(0.5 + (scene_depth_at(px) - depth) / diameter, 0.0, 1.0);
+    let before = clamp(0.5 + (surface - depth + streak.lift) / diameter, 0.0, 1.0);
+    let behind = optical_depth * shown * (1.0 - before);
+    let distance = clamp((depth - surface) / settings.radius, 0.0, FARTHEST);
+    add(BEFORE, index, optical_depth * shown * before * DEPTH_UNIT);
+    add(BEHIND, index, behind * DEPTH_UNIT);
+    add(BEHIND_DISTANCE, index, behind * distance * DISTANCE_UNIT);
+}
+
+@compute @workgroup_size(64)
+fn splat_small(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = item_index(group, groups, lane, 64u);
+    if index >= arrayLength(&all) {
+        return;
+    }
+    let streak = streak_of(index);
+    let extent = max(streak.box.max - streak.box.min + 1, vec2i(0));
+    if extent.x * extent.y > LARGE_PX {
+        large.indices[atomicAdd(&large.count, 1u)] = index;
+        return;
+    }
+    for (var y = streak.box.min.y; y <= streak.box.max.y; y++) {
+        for (var x = streak.box.min.x; x <= streak.box.max.x; x++) {
+            splat_pixel(streak, vec2i(x, y));
+        }
+    }
+}
+
+@compute @workgroup_size(1)
+fn count_large() {
+    let count = atomicLoad(&large.count);
+    large.groups = vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
+}
+
+@compute @workgroup_size(64)
+fn splat_large(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let item = item_index(group, groups, 0u, 1u);
+    if item >= atomicLoad(&large.count) {
+        return;
+    }
+    let streak = streak_of(large.indices[item]);
+    let first = streak.box.min + vec2i(i32(lane % 8u), i32(lane / 8u));
+    for (var y = first.y; y <= streak.box.max.y; y += 8) {
+        for (var x = first.x; x <= streak.box.max.x; x += 8) {
+            splat_pixel(streak, vec2i(x, y));
+        }
+    }
+}
