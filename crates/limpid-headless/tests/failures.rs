@@ -11,6 +11,7 @@ fn shot(positions: &[[f32; 3]], size: [u32; 2]) -> Shot<'_> {
         particles: ParticleSlices { origin: DVec3::ZERO, positions, radius: Radius::Uniform(0.1), density: None },
         motion: Motion::default(),
         paint: Paint::default(),
+        droplets: &[],
         view: View::perspective(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y, 0.8, 4.0 / 3.0, 0.1),
         size,
         settings: Settings::default(),
