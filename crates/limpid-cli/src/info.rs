@@ -4,19 +4,15 @@ use crate::console;
 use crate::failure::Failure;
 use clap::Args;
 use limpid_io::{ParticleSet, Radius, RadiusSource, ReadError};
-use limpid_shot::{short, significant};
+use limpid_shot::{Chosen, Inputs, short, significant};
 use serde::Serialize;
 use std::path::Path;
 
 /// What to look into.
 #[derive(Args, Debug)]
 pub struct InfoArguments {
-    /// Particle files, a folder, or a pattern of numbered files
-    #[arg(value_name = "INPUT", required = true)]
-    input: Vec<String>,
-    /// Particle radius in world units, instead of the file's or the estimated one
-    #[arg(long, value_name = "R", allow_hyphen_values = true)]
-    radius: Option<f64>,
+    #[command(flatten)]
+    chosen: Chosen,
     /// Print JSON: an object for one file, an array of them with their paths for several
     #[arg(long)]
     json: bool,
@@ -55,11 +51,13 @@ struct AttributeInfo {
 
 /// Prints what each file holds.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let sequence = limpid_io::expand(&arguments.input)?;
+    let options = &arguments.chosen.0;
+    let inputs = Inputs::of(options)?;
+    let sequence = &inputs.sequence;
     let several = sequence.frames.len() > 1;
     let mut infos = Vec::new();
     for frame in &sequence.frames {
-        let info = Info::of(&frame.path, arguments.radius, several && arguments.json)?;
+        let info = Info::of(inputs.read(frame)?, options.radius, several && arguments.json)?;
         if arguments.json {
             infos.push(info);
         } else {
@@ -77,12 +75,11 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
 }
 
 impl Info {
-    fn of(path: &Path, radius: Option<f64>, with_path: bool) -> Result<Self, Failure> {
-        let set = limpid_io::read(path)?;
+    fn of(set: ParticleSet, radius: Option<f64>, with_path: bool) -> Result<Self, Failure> {
         let mut warnings = set.warnings.clone();
         let radius = known_radius(&set, radius, &mut warnings)?;
         Ok(Self {
-            path: with_path.then(|| path.display().to_string()),
+            path: with_path.then(|| set.path.display().to_string()),
             format: set.format.name(),
             particles: set.len(),
             bounds: set.bounds().map(|bounds| BoundsInfo { min: bounds.min, max: bounds.max }),

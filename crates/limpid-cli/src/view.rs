@@ -33,7 +33,10 @@ pub fn run(arguments: Box<ViewArguments>) -> Result<(), Failure> {
         ));
     }
     let inputs = options.input.as_deref().filter(|inputs| !inputs.is_empty());
-    let sequence = inputs.map(limpid_io::expand).transpose()?;
+    let mut sequence = inputs.map(limpid_io::expand).transpose()?;
+    if let Some(sequence) = &mut sequence {
+        sequence.select(options.start, options.end, options.step.unwrap_or(1))?;
+    }
     limpid_viewer::run(Opening {
         // A file of options says which size it is for, too.
         has_size: flags.size.is_some() || config.is_some(),

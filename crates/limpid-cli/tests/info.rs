@@ -95,3 +95,43 @@ fn a_reader_that_goes_away_is_no_failure() {
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
 }
+
+#[test]
+fn a_selection_is_what_is_described() {
+    let folder = Folder::new();
+    folder.write_pos("a.pos", &[[0.0, 1.0, -2.0], [0.5, 1.0, 4.0], [9.0, 9.0, 9.0]]);
+    let found = info(&folder, &["a.pos", "--where", "x < 2", "--unit-scale", "2"]);
+    assert_eq!(found["particles"], 2);
+    assert_eq!(found["bounds"], json!({"min": [0.0, 2.0, -4.0], "max": [1.0, 2.0, 8.0]}));
+    let none = info(&folder, &["a.pos", "--clip", "10,10,10,11,11,11"]);
+    assert_eq!((&none["particles"], &none["bounds"]), (&json!(0), &Value::Null));
+    assert!(none["warnings"][0].as_str().unwrap().contains("--clip"));
+    let (_, line) = folder.fail(&["info", "a.pos", "--where", "mass > 1"]);
+    assert!(line.contains("a.pos") && line.contains("mass"), "{line}");
+    folder.write_pos("f_1.pos", &cube(2, 0.0));
+    folder.write_pos("f_2.pos", &cube(3, 0.0));
+    assert_eq!(info(&folder, &["f_{}.pos", "--start", "2"])["particles"], 27);
+    folder.fail(&["info", "a.pos", "--fov", "40"]);
+}
+
+#[test]
+fn bare_numbers_are_read_when_said_so() {
+    let folder = Folder::new();
+    let points = [[0.5, 1.0, -2.0], [0.25, 3.0, 4.0]];
+    folder
+        .write("single.dat", points.as_flattened().iter().flat_map(|x| (*x as f32).to_le_bytes()).collect::<Vec<_>>());
+    folder.write("double.csv", points.as_flattened().iter().flat_map(|x: &f64| x.to_le_bytes()).collect::<Vec<_>>());
+    let bounds = json!({"min": [0.25, 1.0, -2.0], "max": [0.5, 3.0, 4.0]});
+    for (name, kind) in [("single.dat", "f32"), ("double.csv", "f64")] {
+        let (_, line) = folder.fail(&["info", name]);
+        assert!(line.contains("--raw f32"), "{line}");
+        let found = info(&folder, &[name, "--raw", kind]);
+        assert_eq!((&found["format"], &found["bounds"]), (&json!("raw"), &bounds));
+    }
+    folder.write("cut.dat", [0; 23]);
+    let (_, line) = folder.fail(&["info", "cut.dat", "--raw", "f32"]);
+    assert!(line.contains("23 bytes"), "{line}");
+    let whole = info(&folder, &[&data("formats/jet_22_le.ply")]);
+    let bare = info(&folder, &[&data("formats/jet_22_f32le.xyz"), "--raw", "f32"]);
+    assert_eq!((&whole["particles"], &whole["bounds"]), (&bare["particles"], &bare["bounds"]));
+}

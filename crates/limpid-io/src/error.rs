@@ -47,7 +47,7 @@ pub enum ReadError {
     },
     /// Neither the contents nor the name belong to a known format.
     #[error(
-        "{}: not a particle file of a known format (it starts with {start}); give a {} file",
+        "{}: not a particle file of a known format (it starts with {start}); give a {} file, or --raw f32 for bare numbers",
         show(path),
         Format::NAMES
     )]

@@ -34,13 +34,15 @@ pub enum Format {
     Npy,
     /// An archive of NumPy arrays.
     Npz,
+    /// Bare numbers, which [`read_bare`](crate::read_bare) alone reads.
+    Raw,
 }
 
 impl Format {
     /// All names, for a message.
     pub(crate) const NAMES: &str = ".vtk, .vtu, .vtp, .bgeo, .pos, .ply, .csv, .xyz, .json, .npy or .npz";
 
-    /// All formats.
+    /// All formats that contents or name tell.
     pub const ALL: [Self; 11] = [
         Self::Vtk,
         Self::Vtu,
@@ -69,6 +71,7 @@ impl Format {
             Self::Json => "json",
             Self::Npy => "npy",
             Self::Npz => "npz",
+            Self::Raw => "raw",
         }
     }
 
@@ -104,7 +107,7 @@ impl Format {
             Some(Self::Csv | Self::Xyz) if head.iter().any(|byte| *byte < b'\t') => Err(ReadError::Unsupported {
                 path: path.to_owned(),
                 what: "a file of bare binary numbers".into(),
-                remedy: "its layout cannot be told; write it as text, .pos or .ply".into(),
+                remedy: "if it holds x, y and z of each particle, say --raw f32 or --raw f64; else write it as text, .pos or .ply".into(),
             }),
             Some(format @ (Self::Csv | Self::Xyz | Self::Json)) => Ok(format),
             Some(format) => {
@@ -140,6 +143,8 @@ impl Format {
             Self::Json => json::read(input),
             Self::Npy => npy::read(input),
             Self::Npz => npz::read(input),
+            // Told by nothing, so never found.
+            Self::Raw => broken!("bare numbers must be asked for by --raw"),
         }
     }
 }

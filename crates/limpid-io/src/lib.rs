@@ -4,6 +4,7 @@
 //! is broken, cut off or of another kind gives an error of one line that names it and says what to do; memory is never
 //! reserved for more than a file can hold.
 
+mod bare;
 mod bgeo;
 mod error;
 mod format;
@@ -31,6 +32,7 @@ use std::io::{self, Cursor};
 use std::path::Path;
 use std::sync::Arc;
 
+pub use bare::Bare;
 pub use error::ReadError;
 pub use format::Format;
 pub use join::{PHASE, join};
@@ -45,7 +47,14 @@ pub fn read(path: &Path) -> Result<ParticleSet, ReadError> {
     of_input(path, input::Input::open(path))
 }
 
-/// The same for a file that is in memory already, such as one dropped on a web page.
+/// Reads a file of bare numbers, which has no mark to know it by.
+pub fn read_bare(path: &Path, numbers: Bare) -> Result<ParticleSet, ReadError> {
+    let input = input::Input::open(path).map_err(|source| ReadError::Io { path: path.to_owned(), source });
+    let raw = bare::read(&mut input?, numbers).map_err(|fault| fault.at(path, Format::Raw))?;
+    raw.finish(path, Format::Raw)
+}
+
+/// [`read`] for a file that is in memory already, such as one dropped on a web page.
 pub fn read_bytes(path: &Path, bytes: Arc<[u8]>) -> Result<ParticleSet, ReadError> {
     let size = bytes.len() as u64;
     of_input(path, input::Input::of(Box::new(Cursor::new(bytes)), size))

@@ -4,6 +4,7 @@ use crate::colormap::Colormap;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use limpid::{CurvatureFlow, Filter, Foam, Fresnel, Scale};
 use limpid_headless::{Aov, Background};
+use limpid_io::Bare;
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -67,6 +68,10 @@ pub enum ColorAs {
 
 impl Choice for ColorAs {
     const ALL: &'static [(&'static str, Self)] = &[("surface", Self::Surface), ("absorption", Self::Absorption)];
+}
+
+impl Choice for Bare {
+    const ALL: &'static [(&'static str, Self)] = &[("f32", Self::F32), ("f64", Self::F64)];
 }
 
 impl Choice for Background {

@@ -196,7 +196,8 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 36] = [
+    const NOT_NUMBERS: [&str; 37] = [
+        "raw",
         "phase-by",
         "liquid",
         "color-by",

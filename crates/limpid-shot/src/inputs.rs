@@ -2,17 +2,17 @@
 
 use crate::Error;
 use crate::options::Options;
-use limpid_io::{Frame, ParticleSet, Selection, Sequence};
+use crate::reading::Reading;
+use limpid_io::{Frame, ParticleSet, Sequence};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The particle files of a run.
 pub struct Inputs {
     /// Those of the first liquid, in order.
     pub sequence: Sequence,
     beside: Vec<Beside>,
-    selection: Selection,
-    radius: Option<f64>,
+    reading: Reading,
 }
 
 /// Files of another liquid.
@@ -51,7 +51,7 @@ impl Inputs {
             beside.push(Beside { place: index as i32 + 1, files });
         }
         sequence.select(options.start, options.end, options.step.unwrap_or(1))?;
-        Ok(Self { sequence, beside, selection: options.selection()?, radius: options.radius })
+        Ok(Self { sequence, beside, reading: Reading::of(options)? })
     }
 
     /// The particles of a frame, those of all liquids, that the options leave of it.
@@ -59,28 +59,18 @@ impl Inputs {
     /// # Errors
     /// A file that cannot be read, or lacks what the options want.
     pub fn read(&self, frame: &Frame) -> Result<ParticleSet, Error> {
-        let first = self.read_file(&frame.path)?;
+        let first = self.reading.file(&frame.path)?;
         if self.beside.is_empty() {
             return Ok(first);
         }
         let mut parts = vec![(0, first)];
         for Beside { place, files } in &self.beside {
             if let Some(path) = files.get(&frame.path) {
-                parts.push((*place, self.read_file(path)?));
+                parts.push((*place, self.reading.file(path)?));
             }
         }
         let path = frame.path.clone();
         limpid_io::join(parts).ok_or_else(|| Error::usage(format!("{}: no particles", path.display())))
-    }
-
-    fn read_file(&self, path: &Path) -> Result<ParticleSet, Error> {
-        let mut set = limpid_io::read(path)?;
-        let read = set.len();
-        self.selection.apply(&mut set, self.radius)?;
-        if set.is_empty() && read > 0 {
-            set.warnings.push(format!("none of its {read} particles is left by --where, --clip and --drop-isolated"));
-        }
-        Ok(set)
     }
 }
 
@@ -98,6 +88,7 @@ fn matched(frames: &[Frame], others: &[Frame]) -> HashMap<PathBuf, PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     #[test]
     fn files_of_one_frame_have_one_number() {

@@ -5,6 +5,7 @@
 
 mod camera;
 mod choice;
+mod chosen;
 mod colormap;
 pub mod config;
 mod error;
@@ -19,12 +20,14 @@ mod number;
 mod options;
 mod phases;
 mod props;
+mod reading;
 mod size;
 mod survey;
 mod tint;
 
 pub use camera::{Pose, Stage};
 pub use choice::{Axis, Choice, ColorAs, Named, Quality, choice};
+pub use chosen::Chosen;
 pub use colormap::Colormap;
 pub use error::Error;
 pub use frame::{FrameParticles, Paints};
@@ -37,6 +40,7 @@ pub use number::{short, significant};
 pub use options::{ALTERNATIVES, Options};
 pub use phases::Phases;
 pub use props::Props;
+pub use reading::Reading;
 pub use size::Size;
 pub use survey::Survey;
 pub use tint::{ColorScale, Tint};

@@ -11,7 +11,7 @@ use limpid::{
     Absorption, AgitationLimits, Coloring, CurvatureFlow, Filter, Foam, Fresnel, Optics, Scale, Settings, Smoothing,
 };
 use limpid_headless::{Aov, Background};
-use limpid_io::{Condition, Selection};
+use limpid_io::{Bare, Condition, Selection};
 use serde::{Deserialize, Serialize};
 
 /// Vertical field of view in degrees where nothing else is asked for.
@@ -70,6 +70,9 @@ pub struct Options {
     /// World units in a unit of the files: multiplies positions, velocities and the files' radii
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Particles")]
     pub unit_scale: Option<f64>,
+    /// Read files of bare numbers, x, y and z of each particle and nothing else, little-endian
+    #[arg(long, value_name = "TYPE", value_parser = choice::<Bare>(), help_heading = "Particles")]
+    pub raw: Option<Named<Bare>>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH")]
     pub size: Option<Size>,

@@ -10,7 +10,7 @@ use crate::{camera, link, save};
 use eframe::egui::{self, Color32, Key, Layout, Pos2, Rect, RichText, Ui, pos2, vec2};
 use eframe::egui_wgpu::RenderState;
 use limpid_headless::{AdapterInfo, Aov, Background, Image};
-use limpid_shot::{Choice, Named, Options, Pose, Props, Size, config};
+use limpid_shot::{Choice, Named, Options, Pose, Props, Reading, Size, config};
 use std::path::Path;
 use std::sync::Arc;
 use toml::Value;
@@ -150,11 +150,14 @@ impl Viewer {
     pub fn open(&mut self, ctx: &egui::Context, files: Vec<(limpid_io::Frame, Source)>) {
         let ctx = ctx.clone();
         self.inputs = files.iter().map(|(frame, _)| frame.path.display().to_string()).collect();
-        self.frames = Some(Frames::new(files, move || ctx.request_repaint()));
+        // What is no condition is said below, and leaves all particles.
+        let reading = Reading::of(self.book.options());
+        let problem = reading.as_ref().err().map(ToString::to_string);
+        self.frames = Some(Frames::new(files, reading.unwrap_or_default(), move || ctx.request_repaint()));
         self.generation += 1;
         self.index = 0;
         self.clock = 0.0;
-        self.problems.clear();
+        self.problems = problem.into_iter().collect();
     }
 
     fn obey(&mut self, ctx: &egui::Context, command: Command) {

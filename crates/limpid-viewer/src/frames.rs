@@ -1,7 +1,7 @@
 //! The frames of a sequence: read one by one beside the drawing, kept as long as there is room.
 
 use limpid_io::{Frame, ParticleSet};
-use limpid_shot::{Options, Survey};
+use limpid_shot::{Options, Reading, Survey};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -59,14 +59,14 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// Files in the order of their numbers; `wake` is called when one has been read.
-    pub fn new(files: Vec<(Frame, Source)>, wake: impl Fn() + Send + 'static) -> Self {
+    /// Files in the order of their numbers, read in one way; `wake` is called when one has been read.
+    pub fn new(files: Vec<(Frame, Source)>, reading: Reading, wake: impl Fn() + Send + 'static) -> Self {
         let entry = |(frame, source)| Entry { frame, source, state: State::Absent, is_surveyed: false };
         Self {
             entries: files.into_iter().map(entry).collect(),
             survey: Survey::default(),
             version: 0,
-            reader: Reader::new(wake),
+            reader: Reader::new(reading, wake),
             busy: None,
             problems: Vec::new(),
         }
@@ -183,10 +183,10 @@ impl Frames {
 }
 
 /// Reads a file and what the survey needs of it.
-fn read(index: usize, source: &Source, is_new: bool) -> Loaded {
+fn read(index: usize, source: &Source, is_new: bool, reading: &Reading) -> Loaded {
     let set = match source {
-        Source::Path(path) => limpid_io::read(path),
-        Source::Bytes(path, bytes) => limpid_io::read_bytes(path, Arc::clone(bytes)),
+        Source::Path(path) => reading.file(path),
+        Source::Bytes(path, bytes) => reading.bytes(path, Arc::clone(bytes)),
     };
     let outcome = set.map_err(|error| error.to_string()).map(|set| {
         let set = Arc::new(set);
@@ -210,13 +210,13 @@ struct Reader {
 
 #[cfg(not(target_arch = "wasm32"))]
 impl Reader {
-    fn new(wake: impl Fn() + Send + 'static) -> Self {
+    fn new(reading: Reading, wake: impl Fn() + Send + 'static) -> Self {
         let (ask, questions) = std::sync::mpsc::channel::<(usize, Source, bool)>();
         let (answer, answers) = std::sync::mpsc::channel();
         // Ends when either side of the channels does.
         std::thread::spawn(move || {
             for (index, source, is_new) in questions {
-                if answer.send(read(index, &source, is_new)).is_err() {
+                if answer.send(read(index, &source, is_new, &reading)).is_err() {
                     return;
                 }
                 wake();
@@ -238,14 +238,15 @@ impl Reader {
 /// Browsers have one thread: a file is read between two pictures.
 #[cfg(target_arch = "wasm32")]
 struct Reader {
+    reading: Reading,
     wake: Box<dyn Fn()>,
     asked: Option<(usize, Source, bool)>,
 }
 
 #[cfg(target_arch = "wasm32")]
 impl Reader {
-    fn new(wake: impl Fn() + Send + 'static) -> Self {
-        Self { wake: Box::new(wake), asked: None }
+    fn new(reading: Reading, wake: impl Fn() + Send + 'static) -> Self {
+        Self { reading, wake: Box::new(wake), asked: None }
     }
 
     fn ask(&mut self, index: usize, source: Source, is_new: bool) {
@@ -256,7 +257,7 @@ impl Reader {
     fn take(&mut self) -> Option<Loaded> {
         let (index, source, is_new) = self.asked.take()?;
         (self.wake)();
-        Some(read(index, &source, is_new))
+        Some(read(index, &source, is_new, &self.reading))
     }
 }
 
