@@ -27,7 +27,7 @@ pub enum Command {
     /// Show particle files in a window, with every setting live
     View(Box<ViewArguments>),
     /// Say what particle files hold
-    Info(InfoArguments),
+    Info(Box<InfoArguments>),
     /// Make particles of a mesh, inside it or on its surface
     Sample(SampleArguments),
     /// List the looks that --look knows, or print one as a file to copy and change
