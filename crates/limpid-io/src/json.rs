@@ -25,10 +25,10 @@ fn read_object(text: impl Read) -> Result<Raw, Fault> {
     let mut attributes: Vec<Attribute> =
         object.into_iter().filter_map(|(name, value)| attribute(name, &value)).collect();
     let Some(positions) = names::take_positions(&mut attributes) else {
-        return broken!("it has no array of positions, and none of x, y and z");
+        return broken!("it has no array of positions, and no x, y and z of one length");
     };
-    names::join_components(&mut attributes);
     attributes.retain(|attribute| attribute.values.len() == positions.len() * attribute.components);
+    names::join_components(&mut attributes);
     Ok(Raw { attributes, ..Raw::new(positions) })
 }
 

@@ -69,6 +69,10 @@ pub(crate) fn take_positions(attributes: &mut Vec<Attribute>) -> Option<Position
                 .find_map(|joint| find(attributes, &suffixes.map(|suffix| format!("{base}{joint}{suffix}"))))
         })
     })?;
+    let length = |column: usize| attributes[column].values.len();
+    if columns.iter().any(|column| length(*column) != length(columns[0])) {
+        return None;
+    }
     let columns = take(attributes, &columns);
     Some(Positions::from_columns(<[Values; 3]>::try_from(columns).ok()?))
 }

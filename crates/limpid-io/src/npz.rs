@@ -53,9 +53,9 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
         }
     }
     let Some(positions) = names::take_positions(&mut attributes) else {
-        return broken!("it has no array of positions, and none of x, y and z");
+        return broken!("it has no array of positions, and no x, y and z of one length");
     };
-    names::join_components(&mut attributes);
     attributes.retain(|attribute| attribute.values.len() == positions.len() * attribute.components);
+    names::join_components(&mut attributes);
     Ok(Raw { attributes, warnings, ..Raw::new(positions) })
 }

@@ -169,6 +169,91 @@ fn one_byte_changed() {
     }
 }
 
+/// A piece of a file taken out, doubled, or put there from another, bytes changed to telling ones, numbers made large.
+fn mutate(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
+    const TELLING: [&[u8]; 12] = [
+        b"\0",
+        b"\xff",
+        b"\x7f\xff\xff\xff",
+        b"\xff\xff\xff\x7f",
+        b"\x80\0\0\0",
+        b"\0\0\0\x80",
+        b"-1",
+        b"1e999",
+        b"nan",
+        b"4294967296",
+        b"18446744073709551615",
+        b"\n",
+    ];
+    let mut below = |end: usize| (random.next() % end.max(1) as u64) as usize;
+    let at = below(bytes.len());
+    let end = (at + 1 + below(16)).min(bytes.len());
+    match below(6) {
+        0 => bytes[at] ^= 1 << below(8),
+        1 => {
+            let telling = TELLING[below(TELLING.len())];
+            let end = (at + telling.len()).min(bytes.len());
+            bytes.splice(at..end, telling.iter().copied());
+        }
+        2 => {
+            bytes.drain(at..end);
+        }
+        3 => {
+            let piece = bytes[at..end].to_vec();
+            bytes.splice(at..at, piece);
+        }
+        4 => {
+            let from = below(other.len());
+            let piece = &other[from..(from + 1 + below(64)).min(other.len())];
+            bytes.splice(at..end, piece.iter().copied());
+        }
+        _ => {
+            // A number of the text becomes another.
+            let digits = bytes[at..].iter().position(u8::is_ascii_digit).map(|digit| at + digit);
+            if let Some(digit) = digits {
+                bytes[digit] = b'0' + below(10) as u8;
+            }
+        }
+    }
+}
+
+/// The same that cargo-fuzz checks, on any compiler and always in the same order. `FUZZ_ROUNDS` makes it long.
+#[test]
+fn changed_in_many_ways() {
+    let _turn = TURN.lock();
+    let rounds = std::env::var("FUZZ_ROUNDS").map_or(1000, |rounds| rounds.parse().unwrap());
+    let samples = samples();
+    for round in 0..rounds {
+        for (index, (name, bytes)) in samples.iter().enumerate() {
+            let mut random = Random(1 + round * samples.len() as u64 + index as u64);
+            let mut changed = bytes.clone();
+            let (_, other) = &samples[(random.next() % samples.len() as u64) as usize];
+            for _ in 0..=random.next() % 4 {
+                mutate(&mut changed, other, &mut random);
+                if changed.is_empty() {
+                    break;
+                }
+            }
+            LARGEST.store(0, Ordering::Relaxed);
+            let outcome = std::panic::catch_unwind(|| common::sound::check(name, &changed));
+            assert!(outcome.is_ok(), "round {round} of {name}: {}", changed.escape_ascii());
+            let largest = LARGEST.load(Ordering::Relaxed);
+            assert!(largest <= ALLOWED, "round {round}, {largest} bytes for {}", changed.escape_ascii());
+        }
+    }
+}
+
+#[test]
+fn columns_of_other_lengths_are_no_components() {
+    let _turn = TURN.lock();
+    let folder = Folder::new("columns");
+    let xyz = r#""x": [1, 2], "y": [1, 2], "z": [1, 2]"#;
+    let set = folder.read("short.json", format!(r#"{{{xyz}, "u": [1], "v": [1, 2], "w": [1, 2]}}"#)).unwrap();
+    assert!(set.len() == 2 && set.attribute("velocity").is_none());
+    let error = folder.read("z.json", r#"{"x": [1, 2], "y": [1, 2], "z": [1]}"#).unwrap_err();
+    assert!(error.to_string().contains("of one length"), "{error}");
+}
+
 #[test]
 fn counts_that_lie() {
     let _turn = TURN.lock();

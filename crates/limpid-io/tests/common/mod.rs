@@ -1,6 +1,8 @@
 //! Files for tests.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod sound;
+
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
 
