@@ -225,7 +225,7 @@ pub struct Smoothing {
     /// [`Smoothing::ELLIPSOIDS_SHARE`] of it: the standard deviation of the filter's Gaussian over the surface, the same
     /// meaning for every filter.
     pub strength: f32,
-    /// How often the filter is applied, 1 to 1000, default 2 (Gaussian and bilateral: 1, curvature flow: 8, or 100 in the explicit form). They
+    /// How often the filter is applied, 1 to 1000, default 2 (Gaussian and bilateral: 1, curvature flow: 9, or 100 in the explicit form). They
     /// share the smoothing length: more of them do not smooth more.
     pub iterations: u32,
     /// Largest half-width of the filter in pixels, 1 to 256, default 100: bounds the cost of a close-up.
@@ -283,7 +283,7 @@ impl Smoothing {
     /// The defaults of one form of curvature flow.
     pub const fn flow(form: CurvatureFlow) -> Self {
         let iterations = match form {
-            CurvatureFlow::Implicit => 8,
+            CurvatureFlow::Implicit => 9,
             CurvatureFlow::Explicit => 100,
         };
         Self {

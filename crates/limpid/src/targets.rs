@@ -33,6 +33,8 @@ pub(crate) struct Targets {
     pub occupied: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
+    /// f32: smoothing length at each pixel, world units (`breadth.wgsl`).
+    pub smoothing_lengths: wgpu::Buffer,
     /// What curvature flow solves: rows, and columns.
     pub segments: [Segments; 2],
     pub thickness: ThicknessImages,
@@ -152,6 +154,7 @@ impl Targets {
             tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
+            smoothing_lengths: image("smoothing lengths", 4 * pixels),
             segments: [Segments::new(device, size[1], size[0]), Segments::new(device, size[0], size[1])],
             in_scene,
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size), in_scene),

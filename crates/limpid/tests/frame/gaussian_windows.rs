@@ -7,7 +7,8 @@ use limpid::{Filter, Settings, Smoothing, View};
 fn compare(what: &str, cloud: &Cloud, view: View, smoothing: Smoothing) {
     let rendered = render(&shot_of(cloud, view, SIZE, Settings { smoothing, ..Settings::spheres() }));
     let raw: Vec<f64> = rendered.raw_depth.iter().map(|depth| f64::from(*depth)).collect();
-    let expected = windowed(&Camera::new(view, SIZE), &raw, &smoothing, cloud.radius());
+    let expected =
+        windowed(&Camera::new(view, SIZE), &raw, &smoothing, cloud.radius(), Settings::spheres().splat_scale.into());
     let same = rendered.depth.iter().zip(&expected).all(|(a, b)| a.is_finite() == b.is_finite());
     assert!(same, "{what}: the silhouette moved");
     let off = Difference::of_depth(&rendered.depth, &expected);

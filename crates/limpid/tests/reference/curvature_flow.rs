@@ -1,6 +1,7 @@
 //! Curvature flow (van der Laan 2009), explicit and semi-implicit, and the mean curvature.
 
 use super::Camera;
+use super::breadth::shares;
 use super::nearness::{Nearness, moved};
 use glam::DVec2;
 use limpid::{CurvatureFlow, Smoothing};
@@ -8,10 +9,18 @@ use limpid::{CurvatureFlow, Smoothing};
 const AXES: [[i64; 2]; 2] = [[1, 0], [0, 1]];
 
 /// All steps of the filter; `radius` is r.
-pub fn curvature_flow(camera: &Camera, raw_depth: &[f64], smoothing: &Smoothing, radius: f64) -> Vec<f64> {
+pub fn curvature_flow(
+    camera: &Camera,
+    raw_depth: &[f64],
+    smoothing: &Smoothing,
+    radius: f64,
+    splat_scale: f64,
+) -> Vec<f64> {
     let mut image = Nearness::of(camera, raw_depth);
     let sigma_world = f64::from(smoothing.strength) * radius / f64::from(smoothing.iterations).sqrt();
-    let flow = Flow { sigma_world, step: f64::from(smoothing.range) * radius };
+    let step = f64::from(smoothing.range) * radius;
+    let shares = shares(&image, splat_scale * radius, step);
+    let flow = Flow { lengths_world: shares.into_iter().map(|share| share * sigma_world).collect(), step };
     for iteration in 0..smoothing.iterations {
         match smoothing.curvature_flow {
             CurvatureFlow::Explicit => image.values = flow.explicit(&image),
@@ -26,7 +35,8 @@ pub fn curvature_flow(camera: &Camera, raw_depth: &[f64], smoothing: &Smoothing,
 }
 
 struct Flow {
-    sigma_world: f64,
+    /// Smoothing length of one step at each pixel.
+    lengths_world: Vec<f64>,
     /// World units.
     step: f64,
 }
@@ -37,11 +47,11 @@ impl Flow {
         if !image.linked(at, moved(at, axis, 1), self.step) {
             return [0.0; 2];
         }
-        let normal = image.normal_between(at, axis, self.step);
-        let along = image.normal_along(at, axis);
+        let normal = 0.5 * (image.normal_at(at, self.step) + image.normal_at(moved(at, axis, 1), self.step));
+        let along = 0.5 * image.normal_along(at, axis);
         let lag = (normal.dot(along) / normal.length_squared()).clamp(0.0, 1.0);
         let k = 1.0 / normal.length();
-        [k, 0.6 * (1.0 - 0.5 * lag) * k]
+        [k, 0.6 * (1.0 - 0.45 * lag) * k]
     }
 
     /// The implicit side's links toward the pixels before and after one along an axis, and the flux difference between them.
@@ -54,11 +64,18 @@ impl Flow {
         ([behind, ahead], flux_ahead - flux_behind)
     }
 
-    /// What one step makes of a flux difference along each axis.
-    fn mobility(&self, image: &Nearness<'_>, nearness: f64) -> DVec2 {
+    /// What one step makes of a flux difference along each axis; nothing along one whose end the pixel is at.
+    fn mobility(&self, image: &Nearness<'_>, at: [i64; 2]) -> DVec2 {
+        let size = image.camera.size.map(i64::from);
+        let nearness = image.at(at);
+        if nearness <= 0.0 {
+            return DVec2::ZERO;
+        }
+        let length_world = self.lengths_world[(at[1] * size[0] + at[0]) as usize];
+        let inside = |axis: usize| f64::from(u8::from(at[axis] > 0 && at[axis] < size[axis] - 1));
         let scale = if image.camera.view.is_perspective() { nearness } else { 1.0 };
-        let sigma_px = self.sigma_world * scale / image.px_step();
-        0.5 * sigma_px * sigma_px * scale
+        let sigma_px = length_world * scale / image.px_step();
+        0.5 * sigma_px * sigma_px * scale * DVec2::new(inside(0), inside(1))
     }
 
     fn explicit(&self, image: &Nearness<'_>) -> Vec<f64> {
@@ -67,7 +84,7 @@ impl Flow {
             if center <= 0.0 {
                 return 0.0;
             }
-            let mobility = self.mobility(image, center);
+            let mobility = self.mobility(image, at);
             let head_on = if image.camera.view.is_perspective() {
                 let px = DVec2::new(at[0] as f64, at[1] as f64) + 0.5;
                 image.ray(px).extend(1.0).length() / center
@@ -89,7 +106,7 @@ impl Flow {
         for line in 0..lines {
             let place = |i: i64| if axis == 0 { [i, line] } else { [line, i] };
             let row = |i: i64| {
-                let mobility = self.mobility(image, image.at(place(i)))[axis];
+                let mobility = self.mobility(image, place(i))[axis];
                 let (links, flux) = self.around(image, place(i), AXES[axis]);
                 let [behind, ahead] = links.map(|link| mobility * link);
                 [-behind, 1.0 + behind + ahead, -ahead, mobility * flux]

@@ -2,6 +2,7 @@
 //!
 //! Images are rows of values, row 0 at the top. Depths are positive view depths, +infinity where there is no fluid.
 
+mod breadth;
 mod camera;
 mod caustics;
 mod curvature_flow;

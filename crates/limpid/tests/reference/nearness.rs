@@ -62,6 +62,24 @@ impl<'a> Nearness<'a> {
         self.ray(DVec2::ONE) - self.ray(DVec2::ZERO)
     }
 
+    /// Normal away from the viewer, of no particular length, at a pixel, by the mean of the differences to its neighbours.
+    pub fn normal_at(&self, at: [i64; 2], step: f64) -> DVec3 {
+        let center = self.at(at);
+        let difference = |axis: [i64; 2]| {
+            let neighbors = [-1, 1].map(|side| (side as f64, moved(at, axis, side)));
+            let linked: Vec<_> =
+                neighbors.into_iter().filter(|(_, neighbor)| self.linked(at, *neighbor, step)).collect();
+            let sum: f64 = linked.iter().map(|(side, neighbor)| side * (self.at(*neighbor) - center)).sum();
+            sum / linked.len().max(1) as f64
+        };
+        let slope = DVec2::new(difference([1, 0]), difference([0, 1])) / self.px_step();
+        if !self.camera.view.is_perspective() {
+            return (slope * self.camera.view.far).extend(1.0);
+        }
+        let px = DVec2::new(at[0] as f64, at[1] as f64) + 0.5;
+        slope.extend(center - self.ray(px).dot(slope))
+    }
+
     /// Normal away from the viewer, of no particular length, half-way between a pixel and the next one along an axis.
     pub fn normal_between(&self, at: [i64; 2], axis: [i64; 2], step: f64) -> DVec3 {
         let next = moved(at, axis, 1);

@@ -1,28 +1,34 @@
 //! The filters that average over a Gaussian window: plain Gaussian and bilateral.
 
 use super::Camera;
+use super::breadth::shares;
 use super::nearness::Nearness;
 use limpid::{Filter, Smoothing};
 
 /// All steps of the filter; `radius` is r.
-pub fn windowed(camera: &Camera, raw_depth: &[f64], smoothing: &Smoothing, radius: f64) -> Vec<f64> {
+pub fn windowed(camera: &Camera, raw_depth: &[f64], smoothing: &Smoothing, radius: f64, splat_scale: f64) -> Vec<f64> {
     let mut image = Nearness::of(camera, raw_depth);
+    let shares = match smoothing.filter {
+        Filter::Bilateral => shares(&image, splat_scale * radius, f64::from(smoothing.range) * radius),
+        _ => vec![1.0; raw_depth.len()],
+    };
     for _ in 0..smoothing.iterations {
         if smoothing.exact_2d {
-            image.values = averaged(&image, smoothing, radius, [1, 1]);
+            image.values = averaged(&image, smoothing, radius, &shares, [1, 1]);
         } else {
-            image.values = averaged(&image, smoothing, radius, [1, 0]);
-            image.values = averaged(&image, smoothing, radius, [0, 1]);
+            image.values = averaged(&image, smoothing, radius, &shares, [1, 0]);
+            image.values = averaged(&image, smoothing, radius, &shares, [0, 1]);
         }
     }
     image.depth()
 }
 
 /// Every pixel becomes the average over a window of three standard deviations along the `spread` axes.
-fn averaged(image: &Nearness<'_>, smoothing: &Smoothing, radius: f64, spread: [i64; 2]) -> Vec<f64> {
+fn averaged(image: &Nearness<'_>, smoothing: &Smoothing, radius: f64, shares: &[f64], spread: [i64; 2]) -> Vec<f64> {
     let sigma_world = f64::from(smoothing.strength) * radius / f64::from(smoothing.iterations).sqrt();
     let sigma_depth = f64::from(smoothing.range) * radius;
     let average = |(index, &center): (usize, &f64)| {
+        let sigma_world = shares[index] * sigma_world;
         if center <= 0.0 || sigma_world <= 0.0 {
             return center;
         }

@@ -2,6 +2,8 @@
 // centre's tangent (frame.wgsl), so that a slanted plane weighs both sides alike and stays. The exact form is not
 // separable; the two passes along the axes are what renderers use instead (Green 2010).
 
+@group(1) @binding(3) var<storage, read> lengths: array<f32>; // smoothing lengths, breadth.wgsl's
+
 struct Average {
     sum: f32,
     weights: f32,
@@ -23,7 +25,7 @@ fn take(average: ptr<function, Average>, nearness: f32, window: Window, depth_fa
 }
 
 fn filter_axis(pixel: TilePixel, axis: vec2i) {
-    let window = window_around(pixel);
+    let window = window_around(pixel, lengths[min(pixel.index, arrayLength(&lengths) - 1u)]);
     if window.empty {
         if pixel.inside {
             output[pixel.index] = window.center;
@@ -66,7 +68,7 @@ fn bilateral_2d(
     @builtin(local_invocation_id) local: vec3u,
 ) {
     let pixel = tile_pixel(group, groups, local);
-    let window = window_around(pixel);
+    let window = window_around(pixel, lengths[min(pixel.index, arrayLength(&lengths) - 1u)]);
     if window.empty {
         if pixel.inside {
             output[pixel.index] = window.center;

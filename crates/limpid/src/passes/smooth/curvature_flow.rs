@@ -25,8 +25,9 @@ pub(super) struct Axis {
 
 /// Bindings of the list: occupied tiles, the list, the pieces.
 const LIST_SLOTS: [Slot; 3] = [Slot::Read, Slot::Write, Slot::Write];
-/// Bindings of a solve: occupied tiles, the list, input, output, 4 bytes of scratch for each pixel, the pieces.
-const SOLVE_SLOTS: [Slot; 6] = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write];
+/// Bindings of a solve: occupied tiles, the list, input, output, 4 bytes of scratch for each pixel, the pieces,
+/// the smoothing lengths.
+const SOLVE_SLOTS: [Slot; 7] = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write, Slot::Read];
 
 /// `segments.wgsl`'s `LINES`.
 const LINES: u32 = 8;
@@ -118,7 +119,7 @@ impl Axis {
     ) {
         let Segments { list, pieces } = (self.segments)(targets);
         // The surface is scratch: it is written only after the filter.
-        let buffers = [&targets.occupied, list, input, output, &targets.surface, pieces];
+        let buffers = [&targets.occupied, list, input, output, &targets.surface, pieces, &targets.smoothing_lengths];
         let resources = buffers.map(wgpu::Buffer::as_entire_binding);
         for kernel in &self.solve {
             recorder.run(name, kernel, &resources, &Grid::Indirect(list));

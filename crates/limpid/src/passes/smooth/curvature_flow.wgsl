@@ -19,6 +19,7 @@
 @group(1) @binding(3) var<storage, read_write> output: array<f32>; // eliminated constants, then the result
 @group(1) @binding(4) var<storage, read_write> factors: array<u32>; // a relation's previous and next, 16 bits each
 @group(1) @binding(5) var<storage, read_write> pieces: array<Piece>; // of all segments, see `piece_slot`
+@group(1) @binding(6) var<storage, read> lengths: array<f32>; // smoothing lengths, breadth.wgsl's
 
 struct Segments {
     groups: vec3u,
@@ -30,8 +31,8 @@ struct Segments {
 const IMPLICIT: f32 = 0.6;
 
 // How far the implicit side follows the flux's tangent instead of k: at 1 steep slopes, where L grows with the slope, would
-// be hardly implicit at all and single pixels swing; at 0 they lag behind, which takes twice as many steps to make up for.
-const TANGENT: f32 = 0.5;
+// be hardly implicit at all and single pixels swing; at 0 they lag behind, which takes more steps to make up for.
+const TANGENT: f32 = 0.45;
 
 // Below this a change farther along the line no longer matters.
 const FORGOTTEN: f32 = 1e-6;
@@ -57,29 +58,22 @@ fn join(a: Piece, b: Piece) -> Piece {
     );
 }
 
-// Between two pixels: the flux is k (b - a), and j is IMPLICIT times a mean of k and of the flux's derivative by b - a.
+// Between two pixels: the flux k (b - a), and j, which is IMPLICIT times a mean of k and of the flux's derivative by b - a.
 struct Link {
-    k: f32,
     j: f32,
+    flux: f32,
 }
 
-fn link(at: vec2i, axis: vec2i, a: LinePixel, b: LinePixel, step: f32) -> Link {
-    let normal = normal_between(at, axis, a, b);
-    let along = normal_along(at, axis, b.nearness - a.nearness);
-    let squared = max(dot(normal, normal), 1e-30);
-    let k = select(0.0, inverseSqrt(squared), is_sheet(a.nearness, b.nearness, step));
-    let lag = clamp(dot(normal, along) / squared, 0.0, 1.0);
-    return Link(k, IMPLICIT * (1.0 - TANGENT * lag) * k);
-}
-
-// The part of `normal_between` that is proportional to the difference along the axis.
-fn normal_along(at: vec2i, axis: vec2i, difference: f32) -> vec3f {
-    let slope = difference * vec2f(axis) / view.px_step;
-    if is_perspective() {
-        let ray = view.px_zero + (vec2f(at) + 0.5 + 0.5 * vec2f(axis)) * view.px_step;
-        return vec3f(slope, -dot(ray, slope));
-    }
-    return vec3f(slope * view.far, 0.0);
+// `axis_px`: of the two pixels, the first's place along the axis; `sum`: of their normals.
+fn link(axis: vec2f, axis_px: f32, difference: f32, sum: vec3f) -> Link {
+    let k = conductance(sum);
+    // Half of the difference is in either slope: the sum's part along it, and how far that leans the sum.
+    let px_step = dot(view.px_step, axis);
+    let ray = dot(view.px_zero, axis) + (axis_px + 1.0) * px_step;
+    let along = dot(sum.xy, axis);
+    let lean = select(view.far * along, along - ray * sum.z, is_perspective()) * difference / px_step;
+    let lag = clamp(0.25 * lean * k * k, 0.0, 1.0);
+    return Link(IMPLICIT * (1.0 - TANGENT * lag) * k, k * difference);
 }
 
 // A lane's line of a segment, in pixels along it.
@@ -99,10 +93,41 @@ fn is_empty(share: Share, begin: i32) -> bool {
     return (begin >= share.begin) & (begin < share.end) & (occupied[index] == 0u);
 }
 
+// A pixel on a line, its normal, and whether the next one is of its sheet.
+struct LinePixel {
+    nearness: f32,
+    normal: vec3f,
+    has_next: bool,
+}
+
+// Nearness along a share's line; 0 beyond the picture.
+fn along(share: Share, i: i32) -> f32 {
+    return nearness_at(share.origin + i * share.axis);
+}
+
+fn line_pixel(share: Share, i: i32, behind: f32, center: f32, ahead: f32, has_behind: bool) -> LinePixel {
+    let step = sheet_step();
+    let at = share.origin + i * share.axis;
+    let low = nearness_at(at - share.axis.yx);
+    let high = nearness_at(at + share.axis.yx);
+    let has_ahead = is_sheet(center, ahead, step);
+    let over_line = mean_difference(low, center, high, is_sheet(center, low, step), is_sheet(center, high, step));
+    let along_line = mean_difference(behind, center, ahead, has_behind, has_ahead);
+    let difference = select(vec2f(over_line, along_line), vec2f(along_line, over_line), share.axis.x == 1);
+    return LinePixel(center, normal_of(at, center, difference), has_ahead);
+}
+
+// The link from a pixel on a line to the next.
+fn link_ahead(share: Share, i: i32, here: LinePixel, next: LinePixel) -> Link {
+    if !here.has_next {
+        return Link(0.0, 0.0);
+    }
+    let axis = vec2f(share.axis);
+    return link(axis, f32(i), next.nearness - here.nearness, here.normal + next.normal);
+}
+
 // Step 1.
 fn eliminate(share: Share) -> Piece {
-    let step = sheet_step();
-    let axis = share.axis;
     var relation = vec3f(0.0, 1.0, 0.0);
     var first = vec3f(0.0, 0.0, 1.0);
     var begin = share.begin;
@@ -116,27 +141,28 @@ fn eliminate(share: Share) -> Piece {
         if begin >= share.end {
             break;
         }
-        let start = share.origin + begin * axis;
-        let before = line_pixel(start - axis, axis.yx, step);
-        var here = line_pixel(start, axis.yx, step);
-        var behind = link(start - axis, axis, before, here, step);
-        var flux_behind = behind.k * (here.nearness - before.nearness);
+        var ahead = along(share, begin + 1);
+        let center = along(share, begin);
+        let before = along(share, begin - 1);
+        let far_before = along(share, begin - 2);
+        let last = line_pixel(share, begin - 1, far_before, before, center, is_sheet(far_before, before, sheet_step()));
+        var here = line_pixel(share, begin, before, center, ahead, last.has_next);
+        var behind = link_ahead(share, begin - 1, last, here);
         let pixels = min(i32(TILE), share.end - begin);
-        for (var i = 0; i < pixels; i++) {
-            let at = start + i * axis;
+        for (var i = begin; i < begin + pixels; i++) {
+            let at = share.origin + i * share.axis;
             let index = pixel_index(at);
-            let after = line_pixel(at + axis, axis.yx, step);
-            let ahead = link(at, axis, here, after, step);
-            let flux_ahead = ahead.k * (after.nearness - here.nearness);
-            let change = dot(mobility(here.nearness), vec2f(axis));
-            let flux = change * (flux_ahead - flux_behind);
-            relation = follow(relation, change * behind.j, change * ahead.j, flux);
+            let far_ahead = along(share, i + 2);
+            let next = line_pixel(share, i + 1, here.nearness, ahead, far_ahead, here.has_next);
+            let after = link_ahead(share, i, here, next);
+            let change = dot(mobility(at, here.nearness), vec2f(share.axis));
+            relation = follow(relation, change * behind.j, change * after.j, change * (after.flux - behind.flux));
             output[index] = relation.x;
             factors[index] = pack2x16unorm(relation.yz);
             first = vec3f(first.xy, 0.0) + first.z * relation;
-            here = after;
-            behind = ahead;
-            flux_behind = flux_ahead;
+            here = next;
+            ahead = far_ahead;
+            behind = after;
         }
         begin += i32(TILE);
     }

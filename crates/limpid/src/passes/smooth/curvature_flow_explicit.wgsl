@@ -2,18 +2,30 @@
 
 @group(1) @binding(1) var<storage, read> input: array<f32>;
 @group(1) @binding(2) var<storage, read_write> output: array<f32>;
+@group(1) @binding(3) var<storage, read> lengths: array<f32>; // smoothing lengths, breadth.wgsl's
 
 // Share of the longest stable step that a pixel may take: at 1 a checkerboard of single pixels would persist.
 const STABLE: f32 = 0.9;
 
-// Difference of the fluxes into and out of a pixel along one axis.
-fn flux_difference(at: vec2i, axis: vec2i) -> f32 {
-    let step = sheet_step();
-    let behind = line_pixel(at - axis, axis.yx, step);
-    let center = line_pixel(at, axis.yx, step);
-    let ahead = line_pixel(at + axis, axis.yx, step);
-    return conductance(at, axis, center, ahead) * (ahead.nearness - center.nearness)
-        - conductance(at - axis, axis, behind, center) * (center.nearness - behind.nearness);
+fn has_neighbor(center: f32, neighbor: f32) -> bool {
+    return is_sheet(center, neighbor, sheet_step());
+}
+
+fn normal_at(at: vec2i, center: f32) -> vec3f {
+    let low = vec2f(nearness_at(at - vec2i(1, 0)), nearness_at(at - vec2i(0, 1)));
+    let high = vec2f(nearness_at(at + vec2i(1, 0)), nearness_at(at + vec2i(0, 1)));
+    let x = mean_difference(low.x, center, high.x, has_neighbor(center, low.x), has_neighbor(center, high.x));
+    let y = mean_difference(low.y, center, high.y, has_neighbor(center, low.y), has_neighbor(center, high.y));
+    return normal_of(at, center, vec2f(x, y));
+}
+
+// The flux from a pixel's neighbour into it.
+fn inflow(at: vec2i, center: f32, normal: vec3f, offset: vec2i) -> f32 {
+    let neighbor = nearness_at(at + offset);
+    if !has_neighbor(center, neighbor) {
+        return 0.0;
+    }
+    return conductance(normal + normal_at(at + offset, neighbor)) * (neighbor - center);
 }
 
 @compute @workgroup_size(8, 8)
@@ -31,12 +43,17 @@ fn curvature_flow_explicit(
         output[pixel.index] = 0.0;
         return;
     }
-    let change = mobility(center);
+    let change = mobility(pixel.at, center);
     // Stable while twice the sum of change / L is at most 1; 1 / L is largest where the surface faces the eye. Head on
     // that is dt <= z^2 / (2 f^2). A pixel that would need more takes this step: many iterations, each at this limit, are
     // the paper's form, whose smoothing is in pixels.
     let head_on = length(pixel_ray(vec2f(pixel.at) + 0.5).direction) / select(1.0, center, is_perspective());
     let share = min(1.0, STABLE / (2.0 * (change.x + change.y) * head_on));
-    let difference = vec2f(flux_difference(pixel.at, vec2i(1, 0)), flux_difference(pixel.at, vec2i(0, 1)));
-    output[pixel.index] = center + share * dot(change, difference);
+    let normal = normal_at(pixel.at, center);
+    var inflows = vec2f(0.0);
+    for (var side = -1; side <= 1; side += 2) {
+        inflows.x += inflow(pixel.at, center, normal, vec2i(side, 0));
+        inflows.y += inflow(pixel.at, center, normal, vec2i(0, side));
+    }
+    output[pixel.index] = center + share * dot(change, inflows);
 }

@@ -1,7 +1,7 @@
 // The papers' baseline: a plain Gaussian over the pixels that hold fluid, across silhouettes and all. Separable.
 
 fn filter_axis(pixel: TilePixel, axis: vec2i) {
-    let window = window_around(pixel);
+    let window = window_around(pixel, smoothing_length(depth_of(input[min(pixel.index, arrayLength(&input) - 1u)])));
     if window.empty {
         if pixel.inside {
             output[pixel.index] = window.center;

@@ -1,6 +1,7 @@
 //! Smoothing of the depth image. Every filter reads nearness, writes nearness, and is a list of steps over one ping-pong.
 
 mod bilateral;
+mod breadth;
 mod curvature_flow;
 mod gaussian;
 mod narrow_range;
@@ -9,6 +10,7 @@ use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::settings::{CurvatureFlow as Form, Filter, Smoothing};
 use crate::targets::Targets;
 use bilateral::Bilateral;
+use breadth::Breadth;
 pub(crate) use curvature_flow::segments_bytes;
 use curvature_flow::{Axis, CurvatureFlow};
 use gaussian::Gaussian;
@@ -16,6 +18,7 @@ use narrow_range::NarrowRange;
 
 #[derive(Clone)]
 pub(crate) struct Smooth {
+    breadth: Breadth,
     gaussian: Gaussian,
     bilateral: Bilateral,
     curvature_flow: CurvatureFlow,
@@ -33,12 +36,13 @@ enum Work<'a> {
     Lines(&'a Axis),
 }
 
-/// Bindings of [`Work::Pixels`]: tiles, input, output.
-const PIXEL_SLOTS: [Slot; 3] = [Slot::Read, Slot::Read, Slot::Write];
+/// Bindings of [`Work::Pixels`]: tiles, input, output, smoothing lengths.
+const PIXEL_SLOTS: [Slot; 4] = [Slot::Read, Slot::Read, Slot::Write, Slot::Read];
 
 impl Smooth {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         Self {
+            breadth: Breadth::new(device, frame),
             gaussian: Gaussian::new(device, frame),
             bilateral: Bilateral::new(device, frame),
             curvature_flow: CurvatureFlow::new(device, frame),
@@ -63,6 +67,9 @@ impl Smooth {
         smoothing: &Smoothing,
         targets: &'t Targets,
     ) -> &'t wgpu::Buffer {
+        if matches!(smoothing.filter, Filter::Bilateral | Filter::CurvatureFlow) {
+            self.breadth.encode(recorder, targets);
+        }
         if smoothing.filter == Filter::CurvatureFlow && smoothing.curvature_flow == Form::Implicit {
             self.curvature_flow.list_segments(recorder, targets);
         }
@@ -72,7 +79,8 @@ impl Smooth {
             let name = format!("smooth/{name}");
             match work {
                 Work::Pixels(kernel) => {
-                    let resources = [&targets.tiles, input, output].map(wgpu::Buffer::as_entire_binding);
+                    let buffers = [&targets.tiles, input, output, &targets.smoothing_lengths];
+                    let resources = buffers.map(wgpu::Buffer::as_entire_binding);
                     recorder.run(&name, kernel, &resources, &Grid::Indirect(&targets.tiles));
                 }
                 Work::Lines(axis) => axis.run(recorder, &name, input, output, targets),

@@ -14,13 +14,13 @@ struct Window {
     empty: bool, // no fluid, or nothing to smooth with
 }
 
-fn window_around(pixel: TilePixel) -> Window {
+// `sigma_world`: the smoothing length at the pixel.
+fn window_around(pixel: TilePixel, sigma_world: f32) -> Window {
     if !pixel.inside {
         return Window(0.0, 0.0, 0.0, 0, true);
     }
     let center = input[pixel.index];
-    let depth = depth_of(center);
-    let sigma = smoothing_length(depth) * px_per_world(depth);
+    let sigma = sigma_world * px_per_world(depth_of(center));
     if min(center, sigma) <= 0.0 {
         return Window(center, 0.0, 0.0, 0, true);
     }
