@@ -4,6 +4,7 @@ use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::passes::module;
 use crate::targets::Targets;
 
+#[derive(Clone)]
 pub(super) struct Breadth(Kernel);
 
 impl Breadth {
