@@ -38,8 +38,8 @@ pub use format::Format;
 pub use join::{PHASE, join};
 pub use particles::{Attribute, Bounds, ParticleSet, PolygonMesh};
 pub use radius::{Radius, RadiusSource};
-pub use select::{Condition, Selection};
-pub use sequence::{Frame, Sequence, expand, in_order};
+pub use select::{Condition, Selection, have_neighbours};
+pub use sequence::{Frame, Sequence, beside, expand, in_order};
 pub use values::Values;
 
 /// Reads one file. Its contents decide what format it is, and its name where they do not.

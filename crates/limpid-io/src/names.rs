@@ -4,12 +4,13 @@ use crate::raw::Positions;
 use crate::{Attribute, Values};
 
 /// Canonical names with their aliases, best first, and the component counts that make sense.
-const ALIASES: [(&str, &[&str], &[usize]); 5] = [
+const ALIASES: [(&str, &[&str], &[usize]); 6] = [
     ("velocity", &["velocity", "vel", "v"], &[3]),
     ("density", &["density", "rho", "Rhop"], &[1]),
     ("radius", &["radius", "pscale", "width", "widths", "h"], &[1]),
     ("id", &["id", "Idp"], &[1]),
     ("color", &["color", "Cd"], &[3, 4]),
+    ("life", &["life", "lifetime"], &[1]),
 ];
 
 /// Columns whose names do not say that they belong together.

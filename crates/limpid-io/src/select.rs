@@ -195,7 +195,7 @@ fn filter<T>(values: &mut Vec<T>, stays: &[bool], components: usize) {
 }
 
 /// Which particles have so many others within reach.
-fn have_neighbours(positions: &[[f32; 3]], reach: f32, least: u32) -> Vec<bool> {
+pub fn have_neighbours(positions: &[[f32; 3]], reach: f32, least: u32) -> Vec<bool> {
     let cell_of = |position: &[f32; 3]| position.map(|x| (x / reach).floor() as i64);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     for (index, position) in positions.iter().enumerate() {

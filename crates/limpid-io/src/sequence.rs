@@ -175,6 +175,34 @@ pub(crate) fn split(path: PathBuf) -> (Name, Frame) {
     (Name { folder, before, after }, Frame { path, number })
 }
 
+/// Marks in the names of files of droplets beside those of the fluid, as foam generators write them.
+const DROPLET_MARKS: [&str; 3] = ["_foam", "_spray", "_bubbles"];
+
+/// A name without the last mark of this kind; `None` if it has none.
+fn unmarked(name: &str, mark: &str) -> Option<String> {
+    let at = name.to_ascii_lowercase().rfind(mark)?;
+    // Lower case keeps places in ASCII, and the mark is ASCII.
+    Some(format!("{}{}", name.get(..at)?, name.get(at + mark.len()..)?))
+}
+
+/// The files beside those of frames whose names differ by a mark alone: `fluid_foam_7.vtk` and `fluid_7_foam.vtk` are beside
+/// `fluid_7.vtk`. Folders that cannot be listed have none.
+pub fn beside(frames: &[Frame], mark: &str) -> Vec<Frame> {
+    let mut found = Vec::new();
+    for frames in frames.chunk_by(|a, b| a.path.parent() == b.path.parent()) {
+        let folder = frames[0].path.parent().unwrap_or(Path::new(""));
+        let owners: BTreeMap<&OsStr, &Frame> =
+            frames.iter().filter_map(|frame| Some((frame.path.file_name()?, frame))).collect();
+        for path in list("", folder).unwrap_or_default() {
+            let name = path.file_name().and_then(OsStr::to_str).and_then(|name| unmarked(name, mark));
+            if let Some(owner) = name.and_then(|name| owners.get(OsStr::new(&name)).copied()) {
+                found.push(Frame { number: owner.number, path });
+            }
+        }
+    }
+    found
+}
+
 /// The particle files of a folder.
 fn folder(input: &str, folder: &Path) -> Result<Groups, ReadError> {
     let mut groups = Groups::new();
@@ -185,6 +213,17 @@ fn folder(input: &str, folder: &Path) -> Result<Groups, ReadError> {
             groups.entry(name).or_default().push(frame);
         }
     }
+    let is_of_another = |name: &Name| {
+        DROPLET_MARKS.iter().any(|mark| {
+            let names = [
+                unmarked(&name.before, mark).map(|before| Name { before, ..name.clone() }),
+                unmarked(&name.after, mark).map(|after| Name { after, ..name.clone() }),
+            ];
+            names.iter().flatten().any(|name| groups.contains_key(name))
+        })
+    };
+    let droplets: Vec<Name> = groups.keys().filter(|name| is_of_another(name)).cloned().collect();
+    groups.retain(|name, _| !droplets.contains(name));
     Ok(groups)
 }
 

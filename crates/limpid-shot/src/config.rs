@@ -196,8 +196,11 @@ mod tests {
     use limpid::{Filter, Settings, Smoothing};
 
     /// Options that are no numbers; all others need a range.
-    const NOT_NUMBERS: [&str; 37] = [
+    const NOT_NUMBERS: [&str; 40] = [
         "raw",
+        "foam-particles",
+        "spray-particles",
+        "bubble-particles",
         "phase-by",
         "liquid",
         "color-by",

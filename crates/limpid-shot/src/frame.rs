@@ -42,6 +42,9 @@ impl Paints {
     }
 }
 
+/// Places, radii and velocities of particles.
+pub(crate) type Taken = (Vec<[f32; 3]>, Vec<f32>, Option<Vec<[f32; 3]>>);
+
 enum Radii {
     Uniform(f32),
     Each(Vec<f32>),
@@ -83,33 +86,75 @@ impl FrameParticles {
 
     /// Leaves out particles without size: solvers write radius 0 for those they have retired.
     fn drop_points(&mut self) {
-        let Radii::Each(radii) = &mut self.radii else { return };
+        let Radii::Each(radii) = &self.radii else { return };
         if radii.iter().all(|radius| *radius > 0.0) {
             return;
         }
         let solid: Vec<bool> = radii.iter().map(|radius| *radius > 0.0).collect();
-        keep(&mut self.positions, &solid);
+        self.keep(&solid);
+    }
+
+    /// Takes out particles of a density under the limit, and those with fewer `neighbours` within 4 radii (0: none is):
+    /// places, radii, velocities.
+    pub(crate) fn take_strays(&mut self, density: f32, neighbours: u32) -> Taken {
+        let is_thin = |i: usize| self.density.as_ref().is_some_and(|values| values[i] < density);
+        let mut stays: Vec<bool> = (0..self.len()).map(|i| !is_thin(i)).collect();
+        if neighbours > 0 {
+            let reach = 4.0 * self.slices().reference_radius();
+            let has_company = limpid_io::have_neighbours(&self.positions, reach, neighbours);
+            stays.iter_mut().zip(has_company).for_each(|(stays, has_company)| *stays &= has_company);
+        }
+        let strays = || stays.iter().enumerate().filter(|(_, stays)| !**stays).map(|(i, _)| i);
+        let radius = |i: usize| match &self.radii {
+            Radii::Uniform(radius) => *radius,
+            Radii::Each(radii) => radii[i],
+        };
+        let taken = (
+            strays().map(|i| self.positions[i]).collect(),
+            strays().map(radius).collect(),
+            self.velocities.as_ref().map(|velocities| strays().map(|i| velocities[i]).collect()),
+        );
+        self.keep(&stays);
+        taken
+    }
+
+    fn keep(&mut self, wanted: &[bool]) {
+        keep(&mut self.positions, wanted);
         if let Some(density) = &mut self.density {
-            keep(density, &solid);
+            keep(density, wanted);
         }
         if let Some(ids) = &mut self.ids {
-            keep(ids, &solid);
+            keep(ids, wanted);
         }
         if let Some(velocities) = &mut self.velocities {
-            keep(velocities, &solid);
+            keep(velocities, wanted);
+        }
+        if let Some(heat) = &mut self.heat {
+            keep(heat, wanted);
         }
         if let Some(colors) = &mut self.colors {
-            keep(colors, &solid);
+            keep(colors, wanted);
         }
         if let Some(liquids) = &mut self.liquids {
-            keep(liquids, &solid);
+            keep(liquids, wanted);
         }
-        keep(radii, &solid);
+        if let Radii::Each(radii) = &mut self.radii {
+            keep(radii, wanted);
+        }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
+    }
+
+    /// Where positions start, world units.
+    pub(crate) fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    pub(crate) fn has_density(&self) -> bool {
+        self.density.is_some()
     }
 
     /// How many there are.
@@ -170,7 +215,7 @@ impl Radii {
 }
 
 /// World units per second of each particle; lost ones (NaN) are at rest.
-fn velocities_of(set: &ParticleSet) -> Option<Vec<[f32; 3]>> {
+pub(crate) fn velocities_of(set: &ParticleSet) -> Option<Vec<[f32; 3]>> {
     let attribute = set.attribute("velocity").filter(|attribute| attribute.components == 3)?;
     let values = attribute.values.floats();
     let finite = |v: f32| if v.is_finite() { v } else { 0.0 };

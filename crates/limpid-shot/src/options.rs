@@ -32,6 +32,12 @@ const COLOR_DEPTH: f64 = 6.0;
 /// Frames per second where nothing else is asked for: what most simulations are written at.
 const FPS: f64 = 25.0;
 
+/// Radius of droplets in particle radii: what foam generators make is finer than the fluid.
+const DROPLET_RADIUS: f64 = 0.5;
+
+/// A film camera's half of the time.
+const SHUTTER: f64 = 0.5;
+
 /// Strength of the built-in sun.
 const SUN: f64 = 1.0;
 
@@ -330,6 +336,35 @@ pub struct Options {
     #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Living surface")]
     pub foam_speed_max: Option<f64>,
 
+    /// Foam particles, written by a foam generator: files as for INPUT, matched by number; none: not even those beside INPUT
+    /// with `_foam` in the name
+    #[arg(long, value_name = "INPUT", help_heading = "Droplets")]
+    pub foam_particles: Option<String>,
+    /// Spray particles, in the same way: `_spray`
+    #[arg(long, value_name = "INPUT", help_heading = "Droplets")]
+    pub spray_particles: Option<String>,
+    /// Bubble particles, in the same way: `_bubbles`
+    #[arg(long, value_name = "INPUT", help_heading = "Droplets")]
+    pub bubble_particles: Option<String>,
+    /// Draw particles of the fluid of lower density as spray, in the file's unit; 0: none
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Droplets")]
+    pub spray_density: Option<f64>,
+    /// Draw particles of the fluid with fewer neighbours than this within 4 radii as spray; 0: none
+    #[arg(long, value_name = "N", help_heading = "Droplets")]
+    pub spray_neighbours: Option<u32>,
+    /// Radius of foam, spray and bubbles whose file has none, in particle radii
+    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Droplets")]
+    pub droplet_radius: Option<f64>,
+    /// Opacity of one droplet in its middle; their colour is --foam-color
+    #[arg(long, value_name = "O", allow_hyphen_values = true, help_heading = "Droplets")]
+    pub droplet_opacity: Option<f64>,
+    /// Seconds before the end of its life in which a droplet fades, where the file has a life
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, help_heading = "Droplets")]
+    pub droplet_fade: Option<f64>,
+    /// Share of the time from frame to frame in which droplets are stretched along their way
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Droplets")]
+    pub shutter: Option<f64>,
+
     /// Draw one buffer instead of the shaded fluid
     #[arg(long, value_name = "NAME", value_parser = choice::<Aov>(), help_heading = "More output")]
     pub show: Option<Named<Aov>>,
@@ -375,6 +410,10 @@ impl Options {
             legend: Some(Named(true)),
             sun: Some(SUN),
             floor: Some(Named(true)),
+            spray_density: Some(0.0),
+            spray_neighbours: Some(0),
+            droplet_radius: Some(DROPLET_RADIUS),
+            shutter: Some(SHUTTER),
             quiet: Some(false),
             ..Self::of_settings(&Settings::default())
         }
@@ -447,6 +486,8 @@ impl Options {
             foam: Some(Named(detail.foam)),
             foam_opacity: Some(widen(detail.foam_opacity)),
             foam_color: Some(detail.foam_color.map(widen)),
+            droplet_opacity: Some(widen(settings.droplet.opacity)),
+            droplet_fade: Some(widen(settings.droplet.fade)),
             foam_speed_min: Some(widen(detail.foam_speed[0])),
             foam_speed_max: Some(widen(detail.foam_speed[1])),
             fixed_thickness: Some(settings.fixed_thickness.map_or(0.0, widen)),
@@ -541,6 +582,12 @@ impl Options {
         set(&mut detail.foam_speed[0], self.foam_speed_min);
         set(&mut detail.foam_speed[1], self.foam_speed_max);
 
+        let droplet = &mut settings.droplet;
+        droplet.color = settings.detail.foam_color;
+        set(&mut droplet.opacity, self.droplet_opacity);
+        set(&mut droplet.fade, self.droplet_fade);
+        droplet.shutter = (self.shutter.unwrap_or(SHUTTER) / self.fps()) as f32;
+
         settings.fixed_thickness = self.fixed_thickness.filter(|thickness| *thickness > 0.0).map(|v| v as f32);
         settings.layers = self.layers.map_or(settings.layers, |layers| layers.0);
         let optics = &mut settings.optics;
@@ -598,6 +645,11 @@ impl Options {
     /// Frames per second of the simulation.
     pub fn fps(&self) -> f64 {
         self.fps.unwrap_or(FPS)
+    }
+
+    /// Radius of droplets whose file has none, in particle radii.
+    pub fn droplet_radius(&self) -> f64 {
+        self.droplet_radius.unwrap_or(DROPLET_RADIUS)
     }
 
     /// What to render.

@@ -7,7 +7,12 @@ use limpid_shot::{Options, Range, look};
 use toml::{Table, Value};
 
 /// Options that are no settings of the picture, or have places of their own in the window.
-const ELSEWHERE: [&str; 14] = [
+const ELSEWHERE: [&str; 19] = [
+    "foam-particles",
+    "spray-particles",
+    "bubble-particles",
+    "spray-density",
+    "spray-neighbours",
     "liquid",
     "input",
     "output",

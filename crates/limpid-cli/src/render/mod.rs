@@ -11,7 +11,7 @@ use crate::{console, environment};
 use clap::Args;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
 use limpid_io::{Frame, ParticleSet};
-use limpid_shot::{FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
+use limpid_shot::{Diffuse, FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
 use std::path::{Path, PathBuf};
@@ -73,6 +73,7 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let legend = Legend::of(&options, &paints.tint);
     let meshes = props.upload(&offscreen.gpu().device, &offscreen.gpu().queue);
     let mut living = Living::new(&options);
+    let mut diffuse = Diffuse::find(&options, &sequence.frames, survey.radius_world())?;
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
     for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
         let set = match single.take() {
@@ -81,8 +82,9 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         };
         let mut particles = FrameParticles::of(set, &survey, &paints)?;
         let remarks = living.advance(frame, &mut particles);
+        let droplets = diffuse.advance(frame, index, &mut particles)?;
         let bodies = props.at(frame, &meshes);
-        let shot = stage.shot(&options, &particles, &bodies);
+        let shot = Shot { droplets: &droplets.slices(), ..stage.shot(&options, &particles, &bodies) };
         let wanted = Wanted {
             show: options.show.map(|aov| aov.0),
             legend: legend.as_ref(),
@@ -107,8 +109,9 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
             let notes = survey.radius_note().into_iter().chain(paints.tint.note(&options));
             notes.filter(|_| !quiet).for_each(|note| console::note(&note));
         }
+        droplets.warnings.iter().for_each(|warning| console::warn(warning));
         if !quiet {
-            remarks.notes.iter().for_each(|note| console::note(note));
+            remarks.notes.iter().chain(&droplets.notes).for_each(|note| console::note(note));
         }
         if index + 1 == sequence.frames.len()
             && let Some(target) = &outputs.timings
