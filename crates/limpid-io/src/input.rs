@@ -22,8 +22,8 @@ const GZIP_RATIO: u64 = 1032;
 /// Records reserved for at once where only reading on tells how many there are.
 const FIRST_RECORDS: usize = 1 << 14;
 
-pub(crate) struct Input {
-    reader: BufReader<Box<dyn Read>>,
+pub(crate) struct Input<'a> {
+    reader: BufReader<Box<dyn Read + 'a>>,
     head: Vec<u8>,
     gzipped: bool,
     /// Bytes still to come: exact for a plain file, an upper bound for a gzipped one.
@@ -31,7 +31,7 @@ pub(crate) struct Input {
     word: Vec<u8>,
 }
 
-impl Input {
+impl Input<'static> {
     pub fn open(path: &Path) -> io::Result<Self> {
         let file = File::open(path)?;
         if file.metadata()?.is_dir() {
@@ -56,9 +56,11 @@ impl Input {
         let left = if gzipped { size.saturating_mul(GZIP_RATIO) } else { size };
         Ok(Self { reader, head, gzipped, left, word: Vec::new() })
     }
+}
 
+impl<'a> Input<'a> {
     /// Bytes from elsewhere, at most so many, as a stream: what is claimed is checked against that.
-    pub fn of_stream(stream: Box<dyn Read>, most: u64) -> Self {
+    pub fn of_stream(stream: Box<dyn Read + 'a>, most: u64) -> Self {
         let reader = BufReader::with_capacity(BUFFER, stream);
         Self { reader, head: Vec::new(), gzipped: true, left: most, word: Vec::new() }
     }

@@ -60,7 +60,7 @@ pub fn read_bytes(path: &Path, bytes: Arc<[u8]>) -> Result<ParticleSet, ReadErro
     of_input(path, input::Input::of(Box::new(Cursor::new(bytes)), size))
 }
 
-fn of_input(path: &Path, input: io::Result<input::Input>) -> Result<ParticleSet, ReadError> {
+fn of_input(path: &Path, input: io::Result<input::Input<'_>>) -> Result<ParticleSet, ReadError> {
     let mut input = input.map_err(|source| ReadError::Io { path: path.to_owned(), source })?;
     let format = Format::of_input(&input, path)?;
     let raw = format.read(&mut input).map_err(|fault| fault.at(path, format))?;

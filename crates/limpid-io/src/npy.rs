@@ -6,11 +6,12 @@ use crate::names;
 use crate::raw::{Positions, Raw};
 use crate::values::{Encoding, Scalar, Values};
 
-pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
+pub(crate) const MAGIC: &[u8; 6] = b"\x93NUMPY";
 const LONGEST_HEADER: usize = 1 << 16;
 const MOST_COLUMNS: u64 = 64;
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
+    input.skip(MAGIC.len() as u64)?;
     let Array { shape, values } = read_array(input)?;
     match shape {
         Shape::Rows(count, 3) => {
@@ -40,9 +41,8 @@ pub(crate) enum Shape {
     NoNumbers(String),
 }
 
-/// Reads the array at the front of an input.
+/// Reads the array whose mark has been read.
 pub(crate) fn read_array(input: &mut Input) -> Result<Array, Fault> {
-    input.skip(MAGIC.len() as u64)?;
     let [major, _minor] = input.bytes()?;
     let length = match major {
         1 => usize::from(u16::from_le_bytes(input.bytes()?)),

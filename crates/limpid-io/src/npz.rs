@@ -34,13 +34,11 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
         let Ok(Some(name)) = entry.name().map(|name| name.strip_suffix(".npy").map(str::to_owned)) else { continue };
         // What an entry claims to unpack to bounds what is reserved for it; it is read no farther.
         let size = entry.size();
-        let mut bytes = Vec::new();
-        (&mut entry).take(size).read_to_end(&mut bytes)?;
-        if !bytes.starts_with(npy::MAGIC) {
+        let mut array = Input::of_stream(Box::new((&mut entry).take(size)), size);
+        if array.bytes().ok().as_ref() != Some(npy::MAGIC) {
             return broken!("array {} is none of NumPy's", quote(name.as_bytes()));
         }
-        let size = bytes.len() as u64;
-        match npy::read_array(&mut Input::of_stream(Box::new(Cursor::new(bytes)), size)) {
+        match npy::read_array(&mut array) {
             Ok(npy::Array { shape: Shape::Rows(_, components @ 1..=64), values }) => {
                 attributes.push(Attribute { name, components: components as usize, values });
             }

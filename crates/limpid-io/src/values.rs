@@ -144,14 +144,23 @@ impl Values {
     pub(crate) fn extend_from_records(&mut self, records: &[u8], size: usize, slot: Slot, encoding: Encoding) {
         let big = encoding == Encoding::Big;
         macro_rules! extend {
-            ($array:expr, $from:ty, $to:ty) => {
-                for record in records.chunks_exact(size) {
-                    let bytes = &record[slot.offset..][..slot.components * size_of::<$from>()];
-                    $array.extend(bytes.as_chunks().0.iter().map(|&bytes| {
-                        (if big { <$from>::from_be_bytes(bytes) } else { <$from>::from_le_bytes(bytes) }) as $to
-                    }));
+            ($array:expr, $from:ty, $to:ty) => {{
+                const SIZE: usize = size_of::<$from>();
+                let number = |&bytes: &[u8; SIZE]| {
+                    (if big { <$from>::from_be_bytes(bytes) } else { <$from>::from_le_bytes(bytes) }) as $to
+                };
+                if slot.components * SIZE == size {
+                    $array.extend(records.as_chunks().0.iter().map(number));
+                } else if slot.components == 1 {
+                    let first = |record: &[u8]| record[slot.offset..].first_chunk().map_or(<$to>::default(), number);
+                    $array.extend(records.chunks_exact(size).map(first));
+                } else {
+                    for record in records.chunks_exact(size) {
+                        let bytes = &record[slot.offset..][..slot.components * SIZE];
+                        $array.extend(bytes.as_chunks().0.iter().map(number));
+                    }
                 }
-            };
+            }};
         }
         match (self, slot.scalar) {
             (Self::U8(array), _) => extend!(array, u8, u8),
@@ -168,7 +177,7 @@ impl Values {
     }
 }
 
-impl Input {
+impl Input<'_> {
     /// An array of `count` numbers.
     pub fn values(&mut self, scalar: Scalar, encoding: Encoding, count: u64) -> Result<Values, Fault> {
         if encoding == Encoding::Ascii {

@@ -18,8 +18,8 @@ enum Section {
     Cells,
 }
 
-struct Reader<'a> {
-    input: &'a mut Input,
+struct Reader<'a, 'b> {
+    input: &'a mut Input<'b>,
     encoding: Encoding,
     /// From version 5 on, cells are two arrays, OFFSETS and CONNECTIVITY.
     cells_in_two_arrays: bool,
@@ -70,7 +70,7 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     }
 }
 
-impl Reader<'_> {
+impl Reader<'_, '_> {
     /// The next line that says something: not blank, and not part of a METADATA block, which a blank line ends.
     fn line(&mut self) -> Result<Option<Vec<u8>>, Fault> {
         let mut metadata = false;

@@ -26,6 +26,22 @@ impl<'a> Base64<'a> {
         Self { text, ready: Vec::with_capacity(3) }
     }
 
+    /// Decodes as long as four characters at a time are neither padding nor space, as nearly all are; how many bytes.
+    fn run(&mut self, buffer: &mut [u8]) -> usize {
+        let mut filled = 0;
+        for (bytes, quad) in buffer.as_chunks_mut::<3>().0.iter_mut().zip(self.text.as_chunks::<4>().0) {
+            let [a, b, c, d] = quad.map(|byte| u32::from(VALUES[byte as usize]));
+            if (a | b | c | d) > 63 {
+                break;
+            }
+            let [_, decoded @ ..] = (a << 18 | b << 12 | c << 6 | d).to_be_bytes();
+            *bytes = decoded;
+            filled += 3;
+        }
+        self.text = &self.text[filled / 3 * 4..];
+        filled
+    }
+
     /// The bytes of the next four characters; None at the end of the text, or at what is no base64.
     fn quad(&mut self) -> Option<([u8; 3], usize)> {
         let mut quad = [0; 4];
@@ -53,6 +69,10 @@ impl Read for Base64<'_> {
                 buffer[filled] = byte;
                 filled += 1;
                 continue;
+            }
+            filled += self.run(&mut buffer[filled..]);
+            if filled == buffer.len() {
+                break;
             }
             let Some((bytes, count)) = self.quad() else { break };
             if count == 3 && buffer.len() - filled >= 3 {

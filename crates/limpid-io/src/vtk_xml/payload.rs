@@ -1,6 +1,7 @@
 //! The bytes of an array: headers that say how many, blocks that may be packed, base64 around them.
 
-use std::io::{Cursor, Read};
+use std::borrow::Cow;
+use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 use roxmltree::Node;
@@ -52,19 +53,26 @@ impl<'a> Layout<'a> {
     }
 
     /// The bytes of an inline array of `wanted` of them.
-    pub fn inline(&self, text: &str, wanted: u64) -> Result<Vec<u8>, Fault> {
-        self.unpack(Base64::new(text.as_bytes()), wanted)
+    pub fn inline(&self, text: &str, wanted: u64) -> Result<Cow<'a, [u8]>, Fault> {
+        self.unpack(Base64::new(text.as_bytes()), wanted).map(Cow::Owned)
     }
 
     /// The bytes of an appended array that begins at an offset.
-    pub fn appended(&self, offset: u64, wanted: u64) -> Result<Vec<u8>, Fault> {
-        let Some(data) = usize::try_from(offset).ok().and_then(|offset| self.appended.get(offset..)) else {
+    pub fn appended(&self, offset: u64, wanted: u64) -> Result<Cow<'a, [u8]>, Fault> {
+        let Some(mut data) = usize::try_from(offset).ok().and_then(|offset| self.appended.get(offset..)) else {
             return broken!("an array begins at byte {offset} of {} appended ones", self.appended.len());
         };
         if self.appended_is_base64 {
-            self.unpack(Base64::new(data), wanted)
-        } else {
-            self.unpack(Cursor::new(data), wanted)
+            return self.unpack(Base64::new(data), wanted).map(Cow::Owned);
+        }
+        if self.compressor.is_some() {
+            return self.unpack(data, wanted).map(Cow::Owned);
+        }
+        // They lie in the file as they are.
+        let length = self.number(&mut data)?;
+        match usize::try_from(wanted).ok().and_then(|wanted| data.get(..wanted)) {
+            Some(bytes) if length == wanted => Ok(Cow::Borrowed(bytes)),
+            _ => broken!("an array has {} bytes instead of {wanted}", length.min(data.len() as u64)),
         }
     }
 
