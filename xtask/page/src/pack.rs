@@ -26,6 +26,8 @@ pub fn page(wasm: &Path, folder: &Path) -> Result<(), String> {
     fs::create_dir_all(folder.join("data")).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut bindgen = Bindgen::new();
     bindgen.input_path(wasm).out_name("limpid").typescript(true).omit_default_module_path(false);
+    // Names of functions would be an eighth of the download.
+    bindgen.remove_name_section(true);
     bindgen.web(true).and_then(|bindgen| bindgen.generate(folder)).map_err(|error| format!("{error:#}"))?;
     for (from, to) in FILES {
         fs::copy(from, folder.join(to)).map_err(|error| format!("{from}: {error}"))?;
