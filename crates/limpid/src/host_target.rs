@@ -1,6 +1,6 @@
 //! The host's picture that the fluid is drawn into.
 
-/// The host's render target that [`Renderer::composite`] draws into.
+/// The host's render target that [`Renderer::composite`](crate::Renderer::composite) draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TargetFormat {
     /// Format of the colour target. The fluid is written as linear premultiplied colour; an sRGB format encodes it.
