@@ -90,6 +90,7 @@ impl Detail {
             "../ball.wgsl",
             "perlin.wgsl",
             "detail_image.wgsl",
+            "large_splats.wgsl",
             "detail_splat.wgsl"
         );
         let apply = module!(

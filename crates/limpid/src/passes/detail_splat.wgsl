@@ -13,12 +13,6 @@
 @group(1) @binding(6) var<storage, read_write> sums: array<atomic<i32>>; // planes of noise, foam, weight
 @group(1) @binding(7) var<storage, read_write> large: LargeSplats;
 
-struct LargeSplats {
-    groups: vec3u, // indirect dispatch of splat_large
-    count: atomic<u32>,
-    indices: array<u32>,
-}
-
 // Rim of the kernel, in particle radii. Centres lie about 1.3 r under the drawn surface.
 const REACH: f32 = 3.0;
 // The Gaussian's exponent at the rim.
@@ -149,12 +143,6 @@ fn splat_small(
             splat_texel(sprite, vec2i(x, y));
         }
     }
-}
-
-@compute @workgroup_size(1)
-fn count_large() {
-    let count = atomicLoad(&large.count);
-    large.groups = vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
 }
 
 @compute @workgroup_size(64)

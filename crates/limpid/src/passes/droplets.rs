@@ -69,6 +69,7 @@ impl DropletsPass {
             "../ball.wgsl",
             "../scene_depth.wgsl",
             "droplets_image.wgsl",
+            "large_splats.wgsl",
             "droplets_splat.wgsl"
         );
         let kernel = |entry| {

@@ -18,12 +18,6 @@ struct Droplet {
 const KIND_FOAM: f32 = 0.0;
 const KIND_BUBBLES: f32 = 2.0;
 
-struct LargeSplats {
-    groups: vec3u, // indirect dispatch of splat_large
-    count: atomic<u32>,
-    indices: array<u32>,
-}
-
 // Radius in pixels below which a droplet is drawn larger and thinner: smaller ones would flicker.
 const LEAST_PX: f32 = 1.0;
 // A moving droplet's optical depth falls so that its sum over the picture stays: with the profile (1 - q^2)^2 a disc has
@@ -128,12 +122,6 @@ fn splat_small(
             splat_pixel(streak, vec2i(x, y));
         }
     }
-}
-
-@compute @workgroup_size(1)
-fn count_large() {
-    let count = atomicLoad(&large.count);
-    large.groups = vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
 }
 
 @compute @workgroup_size(64)

@@ -138,6 +138,7 @@ impl Paint {
             "balls.wgsl",
             "paint_sums.wgsl",
             "paint_add.wgsl",
+            "large_splats.wgsl",
             "paint_splat.wgsl"
         );
         let body = module!(

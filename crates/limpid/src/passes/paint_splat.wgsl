@@ -11,12 +11,6 @@
 @group(1) @binding(7) var<storage, read_write> large: LargeSplats;
 @group(1) @binding(8) var<uniform> paint: Paint;
 
-struct LargeSplats {
-    groups: vec3u, // indirect dispatch of splat_large
-    count: atomic<u32>,
-    indices: array<u32>,
-}
-
 // Rim of the kernel, in drawn radii.
 const REACH: f32 = 2.0;
 // The Gaussian's exponent at the rim.
@@ -131,12 +125,6 @@ fn splat_small(
             splat_pixel(ball, own, vec2i(x, y));
         }
     }
-}
-
-@compute @workgroup_size(1)
-fn count_large() {
-    let count = atomicLoad(&large.count);
-    large.groups = vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
 }
 
 @compute @workgroup_size(64)
