@@ -10,6 +10,7 @@ mod composite;
 mod curvature_flow;
 mod detail;
 mod droplets;
+mod flicker;
 mod gaussian_windows;
 mod large_splats;
 mod laws;
