@@ -80,27 +80,49 @@ pub fn render_all() -> Result {
     driver::ensure()?;
     run(cargo().args(["build", "--release", "--package", "limpid-cli"]))?;
     for Entry(picture, input, options) in ENTRIES {
-        render(picture, input, options)?;
+        render_data(picture, input, options)?;
     }
+    render_mesh()?;
     let Entry(folder, input, options) = SUBJECT;
     let looks = fs::read_dir("looks").map_err(|error| format!("looks: {error}"))?;
     for look in looks.flatten() {
         let path = look.path();
         let Some(name) = path.file_stem().and_then(|name| name.to_str()) else { continue };
-        render(&format!("{folder}/{name}.png"), input, &[options, &["--look", name]].concat())?;
+        render_data(&format!("{folder}/{name}.png"), input, &[options, &["--look", name]].concat())?;
     }
     println!("The pictures are in docs");
     Ok(())
 }
 
-fn render(picture: &str, input: &str, options: &[&str]) -> Result {
+/// Of a file under `data`, by the simulation's own radius: the file does not say.
+fn render_data(picture: &str, input: &str, options: &[&str]) -> Result {
+    render(picture, &Path::new("data").join(input), &[&["--radius", "0.025"], options].concat())
+}
+
+/// Of a textured mesh, filled with particles in its colours.
+fn render_mesh() -> Result {
+    let particles = Path::new("out/clownfish.ply");
+    fs::create_dir_all("out").map_err(|error| format!("out: {error}"))?;
+    let mut sample = Command::new(built("limpid")?);
+    sample.args(["sample", "data/fish/clownfish.glb", "--spacing", "0.02", "-o"]).arg(particles);
+    output(&mut sample)?;
+    let camera = ["--size=640x360", "--camera-eye=1.1,0.9,2.8", "--camera-target=-0.25,-0.05,0"];
+    for (picture, options) in [
+        ("colours/fish.png", &["--color-by=color"][..]),
+        ("colours/fish_clear.png", &["--color-by=color", "--color-as=absorption", "--color-depth=25"]),
+    ] {
+        render(picture, particles, &[&camera, options].concat())?;
+    }
+    Ok(())
+}
+
+fn render(picture: &str, input: &Path, options: &[&str]) -> Result {
     let picture = Path::new("docs").join(picture);
     if let Some(folder) = picture.parent() {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
     let mut command = Command::new(built("limpid")?);
-    command.arg("render").arg(Path::new("data").join(input)).arg("-o").arg(&picture);
-    // The simulation's own radius: a file of it does not say.
-    command.args(["--quality", "high", "--samples", "8", "--radius", "0.025"]).args(options);
+    command.arg("render").arg(input).arg("-o").arg(&picture);
+    command.args(["--quality", "high", "--samples", "8"]).args(options);
     output(&mut command).map(drop)
 }

@@ -31,6 +31,25 @@ fn particles_of_a_mesh_can_be_read_again() {
 }
 
 #[test]
+fn particles_have_the_colours_of_a_texture() {
+    let folder = Folder::new();
+    folder.succeed(&["sample", &data("fish/clownfish.glb"), "--spacing", "0.05", "-o", "fish.csv"]);
+    let text = String::from_utf8(folder.bytes("fish.csv")).unwrap();
+    let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let [red, green, blue] = ["red", "green", "blue"].map(|name| columns.iter().position(|c| *c == name).unwrap());
+    let rows = text.lines().skip(1).map(|line| line.split(',').map(|v| v.parse().unwrap()).collect::<Vec<f32>>());
+    let colors: Vec<[f32; 3]> = rows.map(|row| [row[red], row[green], row[blue]]).collect();
+    // A clownfish: mostly orange, with bands of white between lines of black.
+    let share = |is: fn(&[f32; 3]) -> bool| colors.iter().filter(|c| is(c)).count() as f64 / colors.len() as f64;
+    let (orange, white, black) = (
+        share(|c| c[0] > 204.0 && c[1] < 166.0 && c[2] < 77.0),
+        share(|c| c.iter().all(|v| *v > 230.0)),
+        share(|c| c.iter().all(|v| *v < 51.0)),
+    );
+    assert!(orange > 0.4 && white > 0.1 && black > 0.05, "{orange} {white} {black}: {}", columns.join(","));
+}
+
+#[test]
 fn the_same_mesh_gives_the_same_bytes() {
     let folder = Folder::new();
     folder.write("red.obj", TETRAHEDRON);
