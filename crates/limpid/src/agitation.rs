@@ -24,10 +24,10 @@ pub struct Agitation {
 /// What agitates particles and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AgitationLimits {
-    /// tau of Eq. 12 per second: changes of velocity beyond it count, world units per second squared, above 0. Default 30: three
-    /// times gravity in metres, so that free fall never counts and impacts do.
+    /// tau of Eq. 12 per second: changes of velocity beyond it count, world units per second squared, above 0. Default 15: half again
+    /// as much as gravity in metres, so that free fall never counts and impacts do.
     pub threshold: f64,
-    /// Seconds in which the heat falls to 1 / e, above 0. Default 0.5.
+    /// Seconds in which the heat falls to 1 / e, above 0. Default 1.
     pub cooling: f64,
     /// World units per second at which particles of the first frame begin to be hot, and are fully. Default 1.8 and 6.
     pub first_frame: [f64; 2],
@@ -35,7 +35,7 @@ pub struct AgitationLimits {
 
 impl Default for AgitationLimits {
     fn default() -> Self {
-        Self { threshold: 30.0, cooling: 0.5, first_frame: [1.8, 6.0] }
+        Self { threshold: 15.0, cooling: 1.0, first_frame: [1.8, 6.0] }
     }
 }
 
@@ -135,7 +135,7 @@ mod tests {
             assert_eq!(agitation.advance(1.0 / fps, &[7, 8], &[kicked, STILL]), [1.0, 0.0]);
             for frame in 1..=120 {
                 let heat = agitation.advance(1.0 / fps, &[7, 8], &[kicked, STILL]);
-                let expected = (-f64::from(frame) / fps / 0.5).exp();
+                let expected = (-f64::from(frame) / fps).exp();
                 assert!((f64::from(heat[0]) - expected).abs() <= 1e-7 * expected, "{fps} {frame}: {heat:?}");
                 assert_eq!(heat[1], 0.0);
             }
@@ -148,7 +148,7 @@ mod tests {
             let mut agitation = Agitation::new(AgitationLimits::default());
             agitation.advance(1.0 / fps, &[0, 1, 2], &[STILL; 3]);
             let after = |acceleration: f64| [(acceleration / fps) as f32, 0.0, 0.0];
-            let heat = agitation.advance(1.0 / fps, &[0, 1, 2], &[after(29.9), after(45.0), after(90.0)]);
+            let heat = agitation.advance(1.0 / fps, &[0, 1, 2], &[after(14.9), after(22.5), after(45.0)]);
             assert_eq!(heat[0], 0.0);
             assert!((heat[1] - 0.5).abs() < 1e-6, "{heat:?}");
             assert_eq!(heat[2], 1.0);
@@ -163,7 +163,7 @@ mod tests {
         // 3 is gone, 4 is new and fast, 2 comes last.
         let heat = agitation.advance(0.04, &[4, 1, 2], &[[50.0, 0.0, 0.0], STILL, [9.0, 0.0, 0.0]]);
         assert_eq!(heat[..2], [0.0, 0.0]);
-        assert!((heat[2] - (-0.08_f32).exp()).abs() < 1e-6, "{heat:?}");
+        assert!((heat[2] - (-0.04_f32).exp()).abs() < 1e-6, "{heat:?}");
         // Who comes back is new.
         agitation.advance(0.04, &[4, 1], &[[50.0, 0.0, 0.0], STILL]);
         assert_eq!(agitation.advance(0.04, &[2], &[[9.0, 0.0, 0.0]]), [0.0]);

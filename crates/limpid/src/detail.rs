@@ -21,20 +21,21 @@ pub struct Detail {
     pub foam: Foam,
     /// Opacity of full foam, 0 to 1, default 0.9.
     pub foam_opacity: f32,
-    /// Linear colour of foam in full light, each 0 to 1000, default (0.9, 0.93, 0.95).
+    /// Linear albedo of foam, each 0 to 1000, default (0.9, 0.93, 0.95).
     pub foam_color: [f32; 3],
     /// [`Foam::Speed`] only: speeds, world units per second, at which foam begins and is full; default 1.8 and 6
     /// (Babylon.js, for metres). If foam would be full before it begins, it begins full.
     pub foam_speed: [f32; 2],
 }
 
-/// Where foam is.
+/// Where foam is. It lies along the lines at which the noise is 0, so it rides with the particles too: threads where there is
+/// little, a mat with holes where there is much; where the noise image cannot hold its lines, an even cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Foam {
     /// Nowhere.
     #[default]
     Off,
-    /// Where particles are agitated ([`crate::Agitation`]), in the pattern of the noise (van der Laan 2009, Fig. 3).
+    /// Where particles are agitated ([`crate::Agitation`]; van der Laan 2009, Fig. 3).
     Agitation,
     /// Where particles are fast: simple, needs no state (Babylon.js).
     Speed,

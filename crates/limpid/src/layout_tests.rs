@@ -26,6 +26,7 @@ const SHADE: &str = concat!(
     include_str!("passes/paint_optics.wgsl"),
     include_str!("passes/droplets_image.wgsl"),
     include_str!("passes/droplets_behind.wgsl"),
+    include_str!("passes/detail_image.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
 
@@ -171,7 +172,6 @@ fn detail() {
         foam,
         foam_color,
         foam_opacity,
-        sun_view,
         foam_begins,
         foam_full,
         has_motion,

@@ -8,7 +8,7 @@ use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, u
 use crate::partial::Conditions;
 use crate::passes::{
     Composite, Curvature, Detail, DropletImages, DropletsPass, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform,
-    Normals, Paint, PaintLayout, ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample,
+    Normals, Paint, PaintLayout, ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, With,
     level_count,
 };
 use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
@@ -487,10 +487,12 @@ impl Renderer {
         let paint_sums = paint_sums.as_ref().unwrap_or(self.paint.nothing());
         let droplets = (!particles.droplets().is_empty()).then(|| {
             let layout = &self.frame_layout;
-            self.shade.reserve_droplets(device, layout);
             let pass = self.droplets.get_or_insert_with(|| DropletsPass::new(device, layout, &self.target));
             pass.encode(recorder, queue, frame, smoothed, scene.depth, targets.size)
         });
+        let foam = (settings.detail.foam != Foam::Off).then(|| self.detail.uniform());
+        let with = With { layers: None, droplets: droplets.as_ref(), foam };
+        self.shade.reserve(device, &self.frame_layout, &with);
         let layers = self.layers.as_ref().filter(|_| settings.layers).and_then(|layers| {
             let passes = FluidPasses {
                 tiles: &self.tiles,
@@ -505,10 +507,7 @@ impl Renderer {
             layers.encode(recorder, queue, frame, &passes, (smoothed, &targets))
         });
         let shadow = self.shadow.map();
-        self.shade.encode(recorder, smoothed, &scene, shadow, layers, paint_sums, droplets.as_ref(), &targets);
-        if let Some(detail) = detail.as_ref().filter(|_| settings.detail.foam != Foam::Off) {
-            self.detail.foam(recorder, detail, &targets);
-        }
+        self.shade.encode(recorder, smoothed, &scene, shadow, paint_sums, &With { layers, ..with }, &targets);
         let fluid =
             FluidImages { raw: &targets.raw, nearness: smoothed, surface: &targets.surface, shaded: &targets.shaded };
         let picture = self.upsample.encode(recorder, fluid, scene.depth, &targets);

@@ -1,4 +1,4 @@
-//! Advected noise and foam: `detail_deepest.wgsl`, `detail_splat.wgsl`, `detail_apply.wgsl` and `foam.wgsl`.
+//! Advected noise and foam: `detail_deepest.wgsl`, `detail_splat.wgsl` and `detail_apply.wgsl`. Shading lays the foam on.
 
 use super::module;
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer, uniform_buffer};
@@ -16,7 +16,6 @@ pub(crate) struct Detail {
     count: Kernel,
     large: Kernel,
     apply: Kernel,
-    foam: Kernel,
     uniform: wgpu::Buffer,
     deepest_nearness: GrowBuffer,
     large_splats: GrowBuffer,
@@ -38,16 +37,14 @@ pub(crate) struct DetailUniform {
     pub foam: u32,
     pub foam_color: [f32; 3],
     pub foam_opacity: f32,
-    pub sun_view: [f32; 3],
     pub foam_begins: f32,
     pub foam_full: f32,
     pub has_motion: u32,
-    pub padding: [f32; 2],
+    pub padding: f32,
 }
 
 impl DetailUniform {
     fn new(frame: &Frame<'_>, targets: &Targets) -> Self {
-        let Frame { view, environment, .. } = *frame;
         let settings = &frame.settings.detail;
         let has_motion = frame.particles.has_motion();
         let divisor = (settings.scale.divisor() / targets.filter_scale.divisor()).max(1);
@@ -66,11 +63,10 @@ impl DetailUniform {
             foam,
             foam_color: settings.foam_color,
             foam_opacity: settings.foam_opacity,
-            sun_view: view.view_from_world.transform_vector3(environment.sun).as_vec3().to_array(),
             foam_begins: settings.foam_speed[0],
             foam_full: settings.foam_speed[1].max(1.001 * settings.foam_speed[0]).max(f32::MIN_POSITIVE),
             has_motion: u32::from(has_motion),
-            padding: [0.0; 2],
+            padding: 0.0,
         }
     }
 
@@ -101,7 +97,6 @@ impl Detail {
             "detail_image.wgsl",
             "detail_apply.wgsl"
         );
-        let foam = module!(device, "foam", "../frame.wgsl", "tile_pixel.wgsl", "detail_image.wgsl", "foam.wgsl");
         let splat = |entry| {
             let slots = [read, read, read, read, read, uniform, write, write];
             Kernel::with_constants(device, frame, &splat, entry, &slots, &[super::ellipsoids_constant(false)])
@@ -111,8 +106,7 @@ impl Detail {
             small: splat("splat_small"),
             count: splat("count_large"),
             large: splat("splat_large"),
-            apply: Kernel::new(device, frame, &apply, "apply", &[read, read, read, uniform, write, write]),
-            foam: Kernel::new(device, frame, &foam, "foam", &[read, read, read, uniform, write]),
+            apply: Kernel::new(device, frame, &apply, "apply", &[read, read, read, uniform, write, write, write]),
             uniform: uniform_buffer::<DetailUniform>(device, "detail"),
             deepest_nearness: GrowBuffer::new("deepest nearness"),
             large_splats: GrowBuffer::new("large noise splats"),
@@ -123,7 +117,8 @@ impl Detail {
     }
 
     /// Sums the noise of all particles, bends the normals in `targets.surface` by it, and returns the buffer of its height and of
-    /// the foam's opacity at each pixel of the fluid.
+    /// the foam's opacity at each pixel of the fluid. Leaves that opacity in `targets.shaded` for shading too, which has no
+    /// binding left.
     pub fn encode(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -172,20 +167,14 @@ impl Detail {
             self.uniform.as_entire_binding(),
             targets.surface.as_entire_binding(),
             shown.as_entire_binding(),
+            targets.shaded.as_entire_binding(),
         ];
         recorder.run("detail", &self.apply, &resources, &Grid::Indirect(&targets.tiles));
         shown
     }
 
-    /// Lays the foam of [`Self::encode`] over `targets.shaded`.
-    pub fn foam(&self, recorder: &mut Recorder<'_>, shown: &wgpu::Buffer, targets: &Targets) {
-        let resources = [
-            targets.tiles.as_entire_binding(),
-            targets.surface.as_entire_binding(),
-            shown.as_entire_binding(),
-            self.uniform.as_entire_binding(),
-            targets.shaded.as_entire_binding(),
-        ];
-        recorder.run("detail", &self.foam, &resources, &Grid::Indirect(&targets.tiles));
+    /// `detail_image.wgsl`'s `Detail`, of the frame of [`Self::encode`].
+    pub fn uniform(&self) -> &wgpu::Buffer {
+        &self.uniform
     }
 }

@@ -6,7 +6,16 @@
 @group(1) @binding(3) var<uniform> detail: Detail;
 @group(1) @binding(4) var<storage, read_write> surface: array<vec4f>; // normal, thickness
 @group(1) @binding(5) var<storage, read_write> shown: array<vec2f>; // height of the noise in r, opacity of foam
+@group(1) @binding(6) var<storage, read_write> shaded: array<vec4f>; // takes that opacity to shading
 
+// Standard deviation of a calm octave of noise, over the root of the weights' sum.
+const SPREAD: f32 = 1.15;
+// Most that foam covers: water shows through everywhere.
+const FULL_COVER: f32 = 0.85;
+// Half the width of foam's edges, in standard deviations of the noise.
+const EDGE: f32 = 0.12;
+// Of foam in the middle of its threads, r.
+const FOAM_HEIGHT: f32 = 0.12;
 // Least cosine between view and surface for a slope: seen more at a grazing angle it would run off.
 const LEAST_COSINE: f32 = 0.1;
 
@@ -15,7 +24,7 @@ fn sums_at(texel: vec2i) -> vec3f {
     let plane = detail.size.x * detail.size.y;
     let index = u32(texel.y) * detail.size.x + u32(texel.x);
     let foam = select(0u, plane, detail.foam != FOAM_OFF);
-    return vec3f(f32(sums[index]), f32(sums[index + foam]), f32(sums[index + 2u * foam])) / UNIT;
+    return vec3f(f32(sums[index]), f32(sums[index + foam]), f32(sums[index + 2u * foam])) / SUM_UNIT;
 }
 
 // A quadratic B-spline along an axis: weights of the texels before, at and after, and their slopes per texel.
@@ -87,22 +96,54 @@ fn apply(
     slope -= slope_weights * mean.x;
 
     let ray = pixel_ray(vec2f(pixel.at) + 0.5).direction;
-    let lift = detail.height * settings.radius / divisor;
+    let depth = depth_of(center);
+    let foam = foam_of(mean, slope / divisor, depth);
+    let lift = settings.radius * (detail.height * slope / divisor + foam.slope);
     let was = surface[pixel.index];
-    surface[pixel.index] = vec4f(bent(was.xyz, ray, depth_of(center), lift * slope), was.w);
-    shown[pixel.index] = vec2f(detail.height * mean.x, foam_opacity(mean));
+    surface[pixel.index] = vec4f(bent(was.xyz, ray, depth, lift), was.w);
+    shown[pixel.index] = vec2f(detail.height * mean.x, foam.opacity);
+    shaded[pixel.index].x = foam.opacity;
 }
 
-// Foam goes by the mean over the particles that the surface is near to.
-fn foam_opacity(sums: vec3f) -> f32 {
+struct FoamCover {
+    opacity: f32,
+    slope: vec2f, // of its height in r, per pixel
+}
+
+// Of the area, the share that foam covers: by the mean over the particles that the surface is near to.
+fn cover_of(mean: f32) -> f32 {
+    if detail.foam == FOAM_SPEED {
+        return FULL_COVER * smoothstep(detail.foam_begins, detail.foam_full, mean * detail.foam_full);
+    }
+    return FULL_COVER * min(mean, 1.0);
+}
+
+// Foam lies along the lines where the noise is 0: threads where there is little, a mat with holes where there is much. The
+// noise is about normal, so the width of the threads follows from the share they are to cover.
+fn foam_of(sums: vec3f, slope: vec2f, depth: f32) -> FoamCover {
     if detail.foam == FOAM_OFF || sums.z <= 0.0 {
-        return 0.0;
+        return FoamCover(0.0, vec2f(0.0));
     }
     let mean = sums.y / sums.z;
-    if detail.foam == FOAM_SPEED {
-        return detail.foam_opacity * smoothstep(detail.foam_begins, detail.foam_full, mean * detail.foam_full);
+    let cover = cover_of(mean);
+    var wavelength = settings.radius / detail.frequency * px_per_world(depth) / f32(detail.divisor);
+    let clear = smoothstep(2.0, 4.0, wavelength);
+    var variance = 0.0;
+    var share = 1.0;
+    for (var octave = 0u; octave < detail.octaves; octave++) {
+        let height = share * smoothstep(2.0, 4.0, wavelength);
+        variance += height * height;
+        share *= 0.5;
+        wavelength *= 0.5;
     }
-    // The calmer, the fewer of the noise's crests are white: foam breaks up into lace before it is gone.
-    let crest = clamp(0.5 + 0.25 * sums.x / (1.0 + detail.agitated_gain * mean), 0.0, 1.0);
-    return detail.foam_opacity * smoothstep(1.0 - mean, 1.5 - mean, crest);
+    let amplitude = 1.0 + detail.agitated_gain * select(0.0, mean, detail.foam == FOAM_AGITATION);
+    let unit = 1.0 / (SPREAD * amplitude * sqrt(max(variance, 1e-6) * sums.z));
+    let place = unit * sums.x;
+    let change = unit * slope;
+    let rim = log((1.0 + cover) / (1.0 - cover)) / 1.702;
+    let blur = max(EDGE, length(change));
+    let lace = clamp(0.5 + (rim - abs(place)) / (2.0 * blur), 0.0, 1.0) * min(2.0 * rim / blur, 1.0);
+    let bulge = -2.0 * FOAM_HEIGHT * place / max(rim, 1e-3) * change;
+    let opacity = mix(cover, lace, clear);
+    return FoamCover(detail.foam_opacity * opacity, opacity * clear * bulge);
 }

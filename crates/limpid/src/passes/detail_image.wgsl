@@ -10,7 +10,6 @@ struct Detail {
     foam: u32, // FOAM_*
     foam_color: vec3f,
     foam_opacity: f32,
-    sun_view: vec3f, // unit vector towards the sun, view space
     foam_begins: f32, // world units per second
     foam_full: f32,
     has_motion: u32,
@@ -21,8 +20,8 @@ const FOAM_AGITATION: u32 = 1u;
 const FOAM_SPEED: u32 = 2u;
 
 // Counts of a sum's 1, and where sums stop growing: far below overflow, and more than 60,000 particles in one place.
-const UNIT: f32 = 16384.0;
-const FULL: i32 = 0x3fffffff;
+const SUM_UNIT: f32 = 16384.0;
+const SUM_FULL: i32 = 0x3fffffff;
 
 // The pixel that a texel samples: its centre's, or the one after.
 fn texel_pixel(texel: vec2i, detail: Detail) -> vec2i {

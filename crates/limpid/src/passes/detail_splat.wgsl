@@ -54,7 +54,8 @@ fn sprite_of(index: u32) -> Sprite {
     }
     let heat = bitcast<f32>(motion.y);
     let speed = min(bitcast<f32>(motion.z) / detail.foam_full, 4.0);
-    let foam = select(heat, speed, detail.foam == FOAM_SPEED);
+    // Some particles foam more than others: foam lies in patches.
+    let foam = select(heat, speed, detail.foam == FOAM_SPEED) * f32(motion.x >> 16u) / 32768.0;
     return Sprite(center, particle.w, motion.x, 1.0 + detail.agitated_gain * heat, foam, box);
 }
 
@@ -78,8 +79,8 @@ fn can_touch(sprite: Sprite) -> bool {
 
 fn add(plane: u32, texel: u32, value: f32) {
     let index = plane * detail.size.x * detail.size.y + texel;
-    if abs(atomicLoad(&sums[index])) < FULL {
-        atomicAdd(&sums[index], i32(round(value * UNIT)));
+    if abs(atomicLoad(&sums[index])) < SUM_FULL {
+        atomicAdd(&sums[index], i32(round(value * SUM_UNIT)));
     }
 }
 

@@ -1,7 +1,7 @@
 //! What is behind the front surface: the back of the first sheet of liquid, and the next sheet beyond the air (`sheets.wgsl`,
 //! `layers.wgsl`).
 
-use super::{Normals, SceneViews, Shade, Smooth, Tiles, ellipsoids_constant, module};
+use super::{Normals, SceneViews, Shade, Smooth, Tiles, With, ellipsoids_constant, module};
 use crate::gpu::{Grid, Kernel, Recorder, Slot, bind, storage_buffer, uniform_buffer};
 use crate::renderer::{Frame, Nothing, SettingsUniform, settings_uniform};
 use crate::targets::Targets;
@@ -217,7 +217,8 @@ impl Kernels {
             &images.layers,
         ];
         recorder.run("layers", &self.pack, &resources.map(wgpu::Buffer::as_entire_binding), &Grid::Image(size));
-        passes.shade.encode(recorder, beyond, passes.scene, passes.shadow, None, passes.no_paint, None, &images.beyond);
+        let alone = With::default();
+        passes.shade.encode(recorder, beyond, passes.scene, passes.shadow, passes.no_paint, &alone, &images.beyond);
         let resources = [&images.beyond.shaded, &images.layers].map(wgpu::Buffer::as_entire_binding);
         recorder.run("layers", &self.pack_color, &resources, &Grid::Image(size));
     }

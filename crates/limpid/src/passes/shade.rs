@@ -53,35 +53,53 @@ pub(crate) struct SceneViews<'a> {
     pub environment_map: &'a wgpu::TextureView,
 }
 
+/// Without layers and with them.
+type Kernels = [Kernel; 2];
+
+/// What shading takes beside the liquid.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct With<'a> {
+    /// What is behind the front surface, if that is known.
+    pub layers: Option<&'a wgpu::Buffer>,
+    /// Droplets on the surface and behind it.
+    pub droplets: Option<&'a DropletImages>,
+    /// `detail_image.wgsl`'s `Detail`: there is foam, its opacity in the first word of each pixel of `targets.shaded`.
+    pub foam: Option<&'a wgpu::Buffer>,
+}
+
+impl With<'_> {
+    fn index(&self) -> usize {
+        usize::from(self.droplets.is_some()) + 2 * usize::from(self.foam.is_some())
+    }
+}
+
 #[derive(Clone)]
 pub(crate) struct Shade {
-    plain: Kernel,
-    layered: Kernel,
-    /// The same with droplets behind the surface; made when first asked for.
-    veiled: Option<[Kernel; 2]>,
+    plain: Kernels,
+    /// Those of [`With`]; made when first asked for.
+    veiled: [Option<Kernels>; 4],
     liquids: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
 
 impl Shade {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let [plain, layered] = Self::kernels(device, frame, false);
         Self {
-            plain,
-            layered,
-            veiled: None,
+            plain: Self::kernels(device, frame, &With::default()),
+            veiled: [None, None, None, None],
             liquids: uniform_buffer::<LiquidsUniform>(device, "liquids"),
             environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
         }
     }
 
-    /// Readies what droplets behind the surface need.
-    pub fn reserve_droplets(&mut self, device: &wgpu::Device, frame: &wgpu::BindGroupLayout) {
-        self.veiled.get_or_insert_with(|| Self::kernels(device, frame, true));
+    /// Readies what droplets and foam need.
+    pub fn reserve(&mut self, device: &wgpu::Device, frame: &wgpu::BindGroupLayout, with: &With<'_>) {
+        if with.index() > 0 {
+            self.veiled[with.index()].get_or_insert_with(|| Self::kernels(device, frame, with));
+        }
     }
 
-    /// Without layers and with them.
-    fn kernels(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, droplets: bool) -> [Kernel; 2] {
+    fn kernels(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, with: &With<'_>) -> Kernels {
         let module = module!(
             device,
             "shade",
@@ -99,6 +117,7 @@ impl Shade {
             "paint_optics.wgsl",
             "droplets_image.wgsl",
             "droplets_behind.wgsl",
+            "detail_image.wgsl",
             "shade.wgsl"
         );
         let slots = [
@@ -116,9 +135,11 @@ impl Shade {
             Slot::Read,
             Slot::Read,
             Slot::Uniform,
+            Slot::Uniform,
         ];
         [false, true].map(|layers| {
-            let constants = [("LAYERS", f64::from(u8::from(layers))), ("DROPLETS", f64::from(u8::from(droplets)))];
+            let flags = [("LAYERS", layers), ("DROPLETS", with.droplets.is_some()), ("FOAM", with.foam.is_some())];
+            let constants = flags.map(|(name, is_on)| (name, f64::from(u8::from(is_on))));
             Kernel::with_constants(device, frame, &module, "shade", &slots, &constants)
         })
     }
@@ -134,8 +155,7 @@ impl Shade {
         recorder.write(queue, &self.environment, environment);
     }
 
-    /// Writes `targets.shaded`. `layers`: what is behind the front surface, if that is known. `droplets`: those behind it, after
-    /// [`Self::reserve_droplets`].
+    /// Writes `targets.shaded`, after [`Self::reserve`].
     #[expect(clippy::too_many_arguments, reason = "the images that shading reads, one from each pass before it")]
     pub fn encode(
         &self,
@@ -143,11 +163,11 @@ impl Shade {
         smoothed: &wgpu::Buffer,
         scene: &SceneViews<'_>,
         shadow: &wgpu::Buffer,
-        layers: Option<&wgpu::Buffer>,
         paint_sums: &wgpu::Buffer,
-        droplets: Option<&DropletImages>,
+        with: &With<'_>,
         targets: &Targets,
     ) {
+        let With { layers, droplets, foam } = *with;
         let resources = [
             targets.tiles.as_entire_binding(),
             self.liquids.as_entire_binding(),
@@ -163,11 +183,9 @@ impl Shade {
             paint_sums.as_entire_binding(),
             droplets.map_or(smoothed, |droplets| &droplets.sums).as_entire_binding(),
             droplets.map_or(&self.environment, |droplets| &droplets.uniform).as_entire_binding(),
+            foam.unwrap_or(&self.environment).as_entire_binding(),
         ];
-        let [plain, layered] = match self.veiled.as_ref().filter(|_| droplets.is_some()) {
-            Some([plain, layered]) => [plain, layered],
-            None => [&self.plain, &self.layered],
-        };
+        let [plain, layered] = self.veiled[with.index()].as_ref().unwrap_or(&self.plain);
         let kernel = if layers.is_some() { layered } else { plain };
         recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));
     }

@@ -23,6 +23,11 @@ override LAYERS: bool = false;
 // Whether there are droplets in the liquid or behind it.
 override DROPLETS: bool = false;
 
+@group(1) @binding(14) var<uniform> detail: Detail; // or unused
+
+// Whether there is foam: its opacity is the first word of each pixel of `shaded`.
+override FOAM: bool = false;
+
 // The liquid of this invocation's pixel.
 var<private> optics: Optics;
 
@@ -139,7 +144,7 @@ fn behind_of(sight: Sight) -> Behind {
 }
 
 // Linear premultiplied colour; where the host's scene is not opaque, alpha is what does not come from behind.
-fn color_of(sight: Sight) -> vec4f {
+fn color_of(sight: Sight, foam: f32) -> vec4f {
     let reflectance = select(reflectance_at(-dot(sight.normal, sight.toward)), vec3f(0.0), sight.is_submerged);
     let behind = behind_of(sight);
     let through = body_transmittance(behind.thickness);
@@ -160,17 +165,18 @@ fn color_of(sight: Sight) -> vec4f {
     let inner = passed * (1.0 - behind.share) * behind.inner;
     let transmitted = passed * behind.share;
     let alpha = 1.0 - (1.0 - behind.color.a) * dot(transmitted, vec3f(1.0 / 3.0));
-    return vec4f(own + inner + transmitted * behind.color.rgb, alpha);
+    let liquid = vec4f(own + inner + transmitted * behind.color.rgb, alpha);
+    return mix(liquid, vec4f(detail.foam_color * lit, 1.0), select(0.0, foam, FOAM));
 }
 
-fn shading_of(sight: Sight) -> vec4f {
+fn shading_of(sight: Sight, foam: f32) -> vec4f {
     if settings.shading == SHADING_TRANSMITTANCE {
         return vec4f(body_transmittance(sight.thickness), 1.0);
     }
     if settings.shading == SHADING_ALBEDO {
         return vec4f(scattered_color(), 1.0);
     }
-    return color_of(sight);
+    return color_of(sight, foam);
 }
 
 @compute @workgroup_size(8, 8)
@@ -183,6 +189,7 @@ fn shade(
     if !pixel.inside {
         return;
     }
+    let foam = shaded[pixel.index].x;
     shaded[pixel.index] = vec4f(0.0);
     let px = vec2f(pixel.at) + 0.5;
     let near = nearness[pixel.index];
@@ -200,5 +207,5 @@ fn shade(
         return;
     }
     optics = optics_at(pixel, normal_thickness.w);
-    shaded[pixel.index] = shading_of(sight_at(px, depth, normal_thickness));
+    shaded[pixel.index] = shading_of(sight_at(px, depth, normal_thickness), foam);
 }

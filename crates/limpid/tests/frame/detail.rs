@@ -59,7 +59,7 @@ fn compare(what: &str, cloud: &Cloud, view: View, size: [u32; 2], detail: Detail
     let camera = Camera::new(view, size);
     let depth: Vec<f64> = depth.iter().map(|depth| f64::from(*depth)).collect();
     let step = f64::from(Settings::default().normal_step) * cloud.radius();
-    let expected = living(&camera, &cloud.slices(), &carried.motion(), &detail, &depth, step);
+    let expected = living(&camera, &cloud.slices(), &carried.motion(), &detail, &depth, step, cloud.radius());
     let covered = || (0..depth.len()).filter(|i| depth[*i].is_finite());
     assert!(covered().any(|i| expected.noise[i].abs() > 0.05) && covered().any(|i| expected.foam[i] > 0.5));
     let noises = covered().map(|i| f64::from(noise[i]) - expected.noise[i]);
@@ -206,6 +206,24 @@ fn the_height_is_the_rms_of_a_calm_surface() {
     let [_, noise, _] = rendered(&slab, Motion::default(), view, [128, 128], detail);
     let rms = Difference::new(noise.iter().map(|v| f64::from(*v))).rms();
     assert!((rms / 0.1 - 1.0).abs() < 0.25, "{rms}");
+}
+
+#[test]
+fn foam_covers_its_share_in_crisp_threads() {
+    let slab = Cloud::slab(30, 4, 0.04, 0.1);
+    let view = View::orthographic(2.0 * DVec3::Y, DVec3::ZERO, DVec3::NEG_Z, 1.0, 1.0, 0.02, 4.0);
+    let detail = Detail { noise: 0.0, octaves: 1, foam_opacity: 1.0, wavelength: 3.0, scale: Scale::Full, ..LIVELY };
+    let ids: Vec<i64> = (0..slab.positions.len() as i64).collect();
+    for heat in [0.25, 0.5, 0.9] {
+        let heats = vec![heat; ids.len()];
+        let motion = Motion { ids: Some(&ids), heat: Some(&heats), ..Motion::default() };
+        let [_, _, foam] = rendered(&slab, motion, view, [160, 160], detail);
+        let count = foam.len() as f64;
+        let covered = foam.iter().map(|foam| f64::from(*foam)).sum::<f64>() / count;
+        assert!((covered / (0.85 * f64::from(heat)) - 1.0).abs() < 0.15, "{heat}: covers {covered}");
+        let pale = foam.iter().filter(|foam| (0.1..0.9).contains(*foam)).count() as f64 / count;
+        assert!(pale < 0.35, "{heat}: {pale} of the area is neither foam nor water");
+    }
 }
 
 #[test]

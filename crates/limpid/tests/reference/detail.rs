@@ -8,6 +8,10 @@ use limpid::{Detail, Foam, Motion, ParticleSlices, Radius};
 const REACH: f64 = 3.0;
 const SHARPNESS: f64 = 3.0;
 const RMS_ONE: f64 = 7.0;
+/// Foam: the noise's deviation over the root of the weights, the most that it covers, and half the width of its edges in deviations.
+const SPREAD: f64 = 1.15;
+const FULL_COVER: f64 = 0.85;
+const EDGE: f64 = 0.12;
 
 /// Height of the noise in r and opacity of the foam, at every pixel.
 pub struct Living {
@@ -25,6 +29,7 @@ pub fn living(
     settings: &Detail,
     depth: &[f64],
     sheet_step: f64,
+    r: f64,
 ) -> Living {
     let divisor = settings.scale.divisor();
     let size = settings.scale.of(camera.size);
@@ -42,10 +47,14 @@ pub fn living(
         .collect();
     let mut living = Living { noise: Vec::new(), foam: Vec::new() };
     for (i, _) in camera.pixels() {
-        let mean =
-            if depth[i].is_finite() { spline(camera, divisor, size, &sums, depth, i, sheet_step) } else { [0.0; 3] };
+        let (mean, slope) = if depth[i].is_finite() {
+            spline(camera, divisor, size, &sums, depth, i, sheet_step)
+        } else {
+            ([0.0; 3], DVec2::ZERO)
+        };
+        let wavelength = f64::from(settings.wavelength) * r * camera.px_per_world(depth[i]) / f64::from(divisor);
         living.noise.push(f64::from(settings.noise) * mean[0]);
-        living.foam.push(opacity(settings, mean));
+        living.foam.push(opacity(settings, mean, slope / f64::from(divisor), wavelength));
     }
     living
 }
@@ -89,12 +98,12 @@ fn texel_sums(
         let mut texels = wavelength * camera.px_per_world(depth[pixel]) / f64::from(settings.scale.divisor());
         let mut height = RMS_ONE * (1.0 + f64::from(settings.agitated_gain) * heat) * weight;
         for octave in 0..settings.octaves {
-            let fade = ((texels - 2.0) / 2.0).clamp(0.0, 1.0);
-            sums[0] += height * fade * fade * (3.0 - 2.0 * fade) * perlin(at, seed.wrapping_add(octave));
+            sums[0] += height * smooth_step(2.0, 4.0, texels) * perlin(at, seed.wrapping_add(octave));
             (at, texels, height) = (2.0 * at, 0.5 * texels, 0.5 * height);
         }
         let full = f64::from(settings.foam_speed[1]);
-        sums[1] += weight * if settings.foam == Foam::Speed { (speed / full).min(4.0) } else { heat };
+        let patchy = f64::from(seed >> 16) / 32768.0;
+        sums[1] += weight * patchy * if settings.foam == Foam::Speed { (speed / full).min(4.0) } else { heat };
         sums[2] += weight;
     }
     sums
@@ -144,8 +153,17 @@ fn perlin(at: DVec3, seed: u32) -> f64 {
         .sum()
 }
 
-/// The quadratic B-spline through the texels of the pixel's own sheet.
-fn spline(camera: &Camera, divisor: u32, size: [u32; 2], sums: &[Sums], depth: &[f64], i: usize, step: f64) -> Sums {
+/// The quadratic B-spline through the texels of the pixel's own sheet, and the slope of its noise per texel: those of other
+/// sheets are as high as the mean.
+fn spline(
+    camera: &Camera,
+    divisor: u32,
+    size: [u32; 2],
+    sums: &[Sums],
+    depth: &[f64],
+    i: usize,
+    step: f64,
+) -> (Sums, DVec2) {
     let width = camera.size[0] as usize;
     let pixel = DVec2::new((i % width) as f64, (i / width) as f64);
     let at = (pixel - f64::from(divisor / 2)) / f64::from(divisor);
@@ -154,7 +172,9 @@ fn spline(camera: &Camera, divisor: u32, size: [u32; 2], sums: &[Sums], depth: &
         t if t < 0.5 => 0.75 - t * t,
         t => 0.5 * (1.5 - t).max(0.0).powi(2),
     };
+    let bell_slope = |t: f64| if t.abs() < 0.5 { -2.0 * t } else { -(1.5 - t.abs()).max(0.0) * t.signum() };
     let (mut sum, mut weights) = ([0.0; 3], 0.0);
+    let (mut slope, mut slope_weights) = (DVec2::ZERO, DVec2::ZERO);
     for dy in -1..=1 {
         for dx in -1..=1 {
             let node = middle + DVec2::new(dx.into(), dy.into());
@@ -165,31 +185,45 @@ fn spline(camera: &Camera, divisor: u32, size: [u32; 2], sums: &[Sums], depth: &
                 let values = sums[(texel[1] * size[0] + texel[0]) as usize];
                 sum = [0, 1, 2].map(|k| sum[k] + weight * values[k]);
                 weights += weight;
+                let away = at - node;
+                let slopes = DVec2::new(bell_slope(away.x) * bell(away.y), bell(away.x) * bell_slope(away.y));
+                slope += slopes * values[0];
+                slope_weights += slopes;
             }
         }
     }
-    if weights > 0.0 { sum.map(|value| value / weights) } else { [0.0; 3] }
+    let mean = if weights > 0.0 { sum.map(|value| value / weights) } else { [0.0; 3] };
+    (mean, slope - slope_weights * mean[0])
 }
 
-fn opacity(settings: &Detail, [noise, foam, weight]: Sums) -> f64 {
-    let step = |low: f64, high: f64, x: f64| {
-        let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    };
+fn smooth_step(low: f64, high: f64, x: f64) -> f64 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Foam where the noise, in units of its deviation, is nearer to 0 than a rim: so wide that foam covers the share that the
+/// particles ask for. `wavelength` is the first octave's, in texels; `slope` per pixel.
+fn opacity(settings: &Detail, [noise, foam, weight]: Sums, slope: DVec2, wavelength: f64) -> f64 {
     if weight <= 0.0 {
         return 0.0;
     }
     let mean = foam / weight;
-    let share = match settings.foam {
-        Foam::Off => 0.0,
+    let (share, amplitude) = match settings.foam {
+        Foam::Off => return 0.0,
         Foam::Speed => {
             let [low, high] = settings.foam_speed.map(f64::from);
-            step(low, high, mean * high)
+            (smooth_step(low, high, mean * high), 1.0)
         }
-        Foam::Agitation => {
-            let crest = (0.5 + 0.25 * noise / (1.0 + f64::from(settings.agitated_gain) * mean)).clamp(0.0, 1.0);
-            step(1.0 - mean, 1.5 - mean, crest)
-        }
+        Foam::Agitation => (mean.min(1.0), 1.0 + f64::from(settings.agitated_gain) * mean),
     };
-    f64::from(settings.foam_opacity) * share
+    let cover = FULL_COVER * share;
+    let clear = |octave: u32| smooth_step(2.0, 4.0, wavelength / 2f64.powi(octave as i32));
+    let variance: f64 = (0..settings.octaves).map(|octave| (clear(octave) / 2f64.powi(octave as i32)).powi(2)).sum();
+    let deviation = SPREAD * amplitude * (variance.max(1e-6) * weight).sqrt();
+    // The normal distribution's quantile, by the logistic one.
+    let rim = ((1.0 + cover) / (1.0 - cover)).ln() / 1.702;
+    let edge = (slope.length() / deviation).max(EDGE);
+    let inside = (0.5 + (rim - noise.abs() / deviation) / (2.0 * edge)).clamp(0.0, 1.0);
+    let lace = inside * (2.0 * rim / edge).min(1.0);
+    f64::from(settings.foam_opacity) * (cover + (lace - cover) * clear(0))
 }
