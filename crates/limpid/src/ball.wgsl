@@ -59,15 +59,14 @@ fn axis_range(center: vec2f, spread: vec3f) -> vec2f {
     let cut = (view.near - center.y) / deep;
     let corner = sqrt(max(1.0 - cut * cut, 0.0));
     let cut_middle = center.x + shear * cut;
-    if !is_perspective() {
-        // The ends of the ellipse lie at this depth, in the circle's space, and its mirror image.
-        let widest = sqrt(spread.x);
-        let end = shear / widest;
-        return vec2f(
-            select(center.x - widest, cut_middle - wide * corner, -end < cut),
-            select(center.x + widest, cut_middle + wide * corner, end < cut),
-        );
-    }
+    // Without a branch: lavapipe 22.3 makes kernels that branch on uniforms alone anew for each dispatch, and keeps them all.
+    // In orthographic views the ends of the ellipse lie at this depth, in the circle's space, and its mirror image.
+    let widest = sqrt(spread.x);
+    let end = shear / widest;
+    let ends = vec2f(
+        select(center.x - widest, cut_middle - wide * corner, -end < cut),
+        select(center.x + widest, cut_middle + wide * corner, end < cut),
+    );
     var low = 3.4e38;
     var high = -3.4e38;
     if cut > -1.0 {
@@ -87,7 +86,7 @@ fn axis_range(center: vec2f, spread: vec3f) -> vec2f {
             }
         }
     }
-    return vec2f(low, high);
+    return select(ends, vec2f(low, high), is_perspective());
 }
 
 struct PixelBox {
