@@ -59,7 +59,8 @@ fn axis_range(center: vec2f, spread: vec3f) -> vec2f {
     let cut = (view.near - center.y) / deep;
     let corner = sqrt(max(1.0 - cut * cut, 0.0));
     let cut_middle = center.x + shear * cut;
-    // Without a branch: lavapipe 22.3 makes kernels that branch on uniforms alone anew for each dispatch, and keeps them all.
+    // Without a branch on a uniform: lavapipe 22.3 compiles some kernels with such branches anew for each dispatch, and keeps
+    // all that it compiled.
     // In orthographic views the ends of the ellipse lie at this depth, in the circle's space, and its mirror image.
     let widest = sqrt(spread.x);
     let end = shear / widest;

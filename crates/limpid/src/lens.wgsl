@@ -23,12 +23,11 @@ fn landing_depth(px: vec2f) -> f32 {
     let upward = lens.floor.z;
     let floor_depth = (dot(lens.floor.xy, across) - lens.floor.w) / max(upward, 1e-6);
     let depth = select(view.far, floor_depth, upward > 0.01);
-    if lens.scene_texels == 0u {
-        return depth;
-    }
-    let size = i32(lens.scene_texels);
+    // Without a branch on a uniform: ball.wgsl says why.
+    let size = max(i32(lens.scene_texels), 1);
     let texel = clamp(vec2i(floor(px / vec2f(view.size) * f32(size))), vec2i(0), vec2i(size - 1));
     let fluid = lens.shadow_texels * lens.shadow_texels * SHADOW_WORDS;
     let nearness = shadow[fluid + u32(texel.y * size + texel.x)];
-    return select(depth, min(depth, mix(view.far, view.near, nearness)), nearness > 0.0);
+    let is_scene = (nearness > 0.0) & (lens.scene_texels > 0u);
+    return select(depth, min(depth, mix(view.far, view.near, nearness)), is_scene);
 }
