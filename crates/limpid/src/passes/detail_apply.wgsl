@@ -112,16 +112,15 @@ struct FoamCover {
 
 // Of the area, the share that foam covers: by the mean over the particles that the surface is near to.
 fn cover_of(mean: f32) -> f32 {
-    if detail.foam == FOAM_SPEED {
-        return FULL_COVER * smoothstep(detail.foam_begins, detail.foam_full, mean * detail.foam_full);
-    }
-    return FULL_COVER * min(mean, 1.0);
+    // Nowhere a branch on a uniform alone: ball.wgsl says why.
+    let by_speed = smoothstep(detail.foam_begins, detail.foam_full, mean * detail.foam_full);
+    return FULL_COVER * select(min(mean, 1.0), by_speed, detail.foam == FOAM_SPEED);
 }
 
 // Foam lies along the lines where the noise is 0: threads where there is little, a mat with holes where there is much. The
 // noise is about normal, so the width of the threads follows from the share they are to cover.
 fn foam_of(sums: vec3f, slope: vec2f, depth: f32) -> FoamCover {
-    if detail.foam == FOAM_OFF || sums.z <= 0.0 {
+    if (detail.foam == FOAM_OFF) | (sums.z <= 0.0) {
         return FoamCover(0.0, vec2f(0.0));
     }
     let mean = sums.y / sums.z;
@@ -130,8 +129,8 @@ fn foam_of(sums: vec3f, slope: vec2f, depth: f32) -> FoamCover {
     let clear = smoothstep(2.0, 4.0, wavelength);
     var variance = 0.0;
     var share = 1.0;
-    for (var octave = 0u; octave < detail.octaves; octave++) {
-        let height = share * smoothstep(2.0, 4.0, wavelength);
+    for (var octave = 0u; octave < MOST_OCTAVES; octave++) {
+        let height = select(0.0, share, octave < detail.octaves) * smoothstep(2.0, 4.0, wavelength);
         variance += height * height;
         share *= 0.5;
         wavelength *= 0.5;

@@ -15,6 +15,8 @@ struct Detail {
     has_motion: u32,
 }
 
+const MOST_OCTAVES: u32 = 4u;
+
 const FOAM_OFF: u32 = 0u;
 const FOAM_AGITATION: u32 = 1u;
 const FOAM_SPEED: u32 = 2u;

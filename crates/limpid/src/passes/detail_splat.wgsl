@@ -112,10 +112,11 @@ fn splat_texel(sprite: Sprite, texel: vec2i) {
     }
     if weight > 0.0 {
         add(0u, at, noise);
-        if detail.foam != FOAM_OFF {
-            add(1u, at, weight * sprite.foam);
-            add(2u, at, weight);
-        }
+    }
+    // Not a branch on a uniform alone: ball.wgsl says why.
+    if (weight > 0.0) & (detail.foam != FOAM_OFF) {
+        add(1u, at, weight * sprite.foam);
+        add(2u, at, weight);
     }
 }
 
