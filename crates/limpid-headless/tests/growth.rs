@@ -33,7 +33,8 @@ fn looks() -> Vec<(&'static str, Settings)> {
         ("curvature flow", flow(CurvatureFlow::Implicit, Scale::Full)),
         ("explicit curvature flow", flow(CurvatureFlow::Explicit, Scale::Half)),
         ("draft", Settings { filter_scale: Scale::Half, thickness_scale: Scale::Quarter, ..default }),
-        ("foam", Settings { detail: Detail { noise: 0.1, foam: Foam::Agitation, ..Detail::default() }, ..default }),
+        ("noise", Settings { detail: Detail { noise: 0.1, ..Detail::default() }, ..default }),
+        ("foam", Settings { detail: Detail { foam: Foam::Agitation, ..Detail::default() }, ..default }),
         ("paint", Settings { coloring: Coloring::Surface, ..default }),
         ("two liquids", {
             let mut other_liquids = [None; 7];
