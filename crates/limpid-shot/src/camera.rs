@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::frame::FrameParticles;
+use crate::liquid;
 use crate::options::Options;
 use crate::props::Props;
 use crate::survey::Survey;
@@ -74,14 +75,19 @@ impl Stage {
 
     /// A frame on this stage.
     pub fn shot<'a>(&self, options: &Options, particles: &'a FrameParticles, bodies: &'a [Body<'a>]) -> Shot<'a> {
+        let slices = particles.slices();
+        let mut settings = options.settings();
+        let liquids = options.liquid.as_deref().unwrap_or_default();
+        settings.other_strengths =
+            liquid::strengths(liquids, settings.smoothing.strength, || slices.reference_radius());
         Shot {
-            particles: particles.slices(),
+            particles: slices,
             motion: particles.motion(),
             paint: particles.paint(),
             droplets: &[],
             view: self.view,
             size: options.size(),
-            settings: options.settings(),
+            settings,
             environment: self.environment,
             background: options.background(),
             bodies,

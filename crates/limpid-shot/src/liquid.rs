@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use toml::{Table, Value};
 
+/// r of the longest smoothing.
+const MOST_STRENGTH: f32 = 20.0;
+
 /// A liquid beside the first: which particles are its own, and what it is made of.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Liquid {
@@ -25,6 +28,9 @@ pub struct Liquid {
     /// The radius of its particles, world units; none: as if it were no liquid of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
+    /// How it is smoothed, in its particles' radii, 0 to 20; none: as `--strength` has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strength: Option<f64>,
     /// What of its look is different.
     #[serde(flatten)]
     own: Table,
@@ -70,10 +76,9 @@ impl Liquid {
             None => look::read("water")?,
         };
         limits::check(&self.own).map_err(|error| error.to_string())?;
-        if let Some(radius) = self.radius {
-            let radius = Table::from_iter([("radius".to_owned(), Value::Float(radius))]);
-            limits::check(&radius).map_err(|error| error.to_string())?;
-        }
+        let numbers = [("radius", self.radius), ("strength", self.strength)];
+        let numbers = numbers.into_iter().filter_map(|(key, value)| Some((key.to_owned(), Value::Float(value?))));
+        limits::check(&numbers.collect()).map_err(|error| error.to_string())?;
         self.optics = Some(look::with(&base, &self.own)?.settings().optics);
         Ok(())
     }
@@ -96,6 +101,22 @@ pub fn settle(liquids: &mut [Liquid], phase_by: Option<&str>) -> Result<(), Stri
     Ok(())
 }
 
+/// How the liquids after the first are smoothed, in r of all particles together, where some are smoothed in their own way: by a
+/// strength or by radii of their own, in which strengths are meant. `common` is that of the others, `radius` gives r, world units.
+pub fn strengths(liquids: &[Liquid], common: f32, radius: impl FnOnce() -> f32) -> [Option<f32>; MOST_LIQUIDS - 1] {
+    let mut strengths = [None; MOST_LIQUIDS - 1];
+    if liquids.iter().all(|liquid| liquid.strength.is_none() && liquid.radius.is_none()) {
+        return strengths;
+    }
+    let reference = radius();
+    for (strength, liquid) in strengths.iter_mut().zip(liquids) {
+        let own = liquid.strength.map_or(common, |own| own as f32);
+        let scale = liquid.radius.map_or(1.0, |radius| radius as f32 / reference);
+        *strength = Some((own * scale).min(MOST_STRENGTH));
+    }
+    strengths
+}
+
 /// Words with spaces between them: a look, and KEY=VALUE.
 impl FromStr for Liquid {
     type Err = String;
@@ -107,8 +128,8 @@ impl FromStr for Liquid {
                 Some((key, value)) => (key, value_of(value)),
                 None => ("look", Value::String(word.into())),
             };
-            let is_number = value.is_integer() || key == "radius" && value.is_float();
-            if matches!(key, "phase" | "radius") && !is_number {
+            let is_number = value.is_integer() || key != "phase" && value.is_float();
+            if matches!(key, "phase" | "radius" | "strength") && !is_number {
                 return Err(format!("{word}: must be a number"));
             }
             if table.insert(key.into(), value).is_some() {
@@ -172,6 +193,18 @@ mod tests {
     }
 
     #[test]
+    fn strengths_are_in_radii_of_the_liquid() {
+        let of = |texts: &[&str]| {
+            let liquids: Vec<Liquid> = texts.iter().map(|text| text.parse().unwrap()).collect();
+            strengths(&liquids, 0.8, || 0.5)[..3].to_vec()
+        };
+        assert_eq!(of(&["oil", "milk"]), [None, None, None]);
+        assert_eq!(of(&["oil", "milk strength=2"]), [Some(0.8), Some(2.0), None]);
+        assert_eq!(of(&["oil radius=1", "milk strength=2 radius=0.25"]), [Some(1.6), Some(1.0), None]);
+        assert_eq!(of(&["oil strength=20 radius=1"]), [Some(20.0), None, None]);
+    }
+
+    #[test]
     fn what_makes_no_liquid_is_refused() {
         for (text, phase_by, expected) in [
             ("glue phase=1", Some("type"), "water, sea"),
@@ -183,6 +216,8 @@ mod tests {
             ("oil phase=1 radius=-1", Some("type"), "--radius is -1"),
             ("oil where=Type==1 phase=2", None, "phase= must go"),
             ("oil where=Type", None, "compares nothing"),
+            ("oil phase=1 strength=21", Some("type"), "--strength is 21"),
+            ("oil phase=1 strength=much", Some("type"), "strength=much: must be a number"),
             ("oil phase=one", Some("type"), "phase=one: must be a number"),
             ("oil honey", Some("type"), "look is given twice"),
         ] {

@@ -245,7 +245,7 @@ pub struct Options {
 
     /// Another liquid beside the first, mixed with it where they meet: what it is made of, a name or a file as --look has them;
     /// which particles it is, by input=FILES (those of one frame belong together by their numbers), by where=CONDITION as
-    /// --where has them, or by phase=NUMBER; and what else is its own, radius=R or parts of the look, as in
+    /// --where has them, or by phase=NUMBER; and what else is its own, radius=R, strength=S or parts of the look, as in
     /// 'oil input=oil_{}.vtk roughness=0.2'; may be given several times
     #[arg(long, value_name = "LOOK KEY=VALUE ...", value_parser = str::parse::<Liquid>, action = ArgAction::Append,
           help_heading = "Liquids")]

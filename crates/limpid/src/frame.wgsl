@@ -42,6 +42,7 @@ struct Settings {
     shading: u32, // shade.wgsl's SHADING_*
     fixed_thickness: f32, // world units; 0: the fluid's own
     layers_px: u32, // pixels of the fluid's images along a texel of the layers' (layers.wgsl)
+    own_lengths: u32, // whether each pixel has a smoothing length of its own (lengths.wgsl)
 }
 
 @group(0) @binding(0) var<uniform> view: View;

@@ -4,7 +4,9 @@ use crate::bodies::BodyUniform;
 use crate::caustics::LensUniform;
 use crate::display::DisplayUniform;
 use crate::environment::{EnvironmentUniform, LightUniform};
-use crate::passes::{DetailUniform, DropletsUniform, GatherUniform, LiquidsUniform, OpticsUniform, PaintUniform};
+use crate::passes::{
+    DetailUniform, DropletsUniform, GatherUniform, LengthsUniform, LiquidsUniform, OpticsUniform, PaintUniform,
+};
 use crate::renderer::SettingsUniform;
 use crate::view::ViewUniform;
 use std::mem::offset_of;
@@ -23,6 +25,7 @@ const SHADE: &str = concat!(
     include_str!("passes/through.wgsl"),
     include_str!("passes/thickness_levels.wgsl"),
     include_str!("passes/paint_sums.wgsl"),
+    include_str!("passes/paint_shares.wgsl"),
     include_str!("passes/paint_optics.wgsl"),
     include_str!("passes/droplets_image.wgsl"),
     include_str!("passes/droplets_behind.wgsl"),
@@ -102,6 +105,8 @@ fn settings() {
         shading,
         fixed_thickness,
         layers_px,
+        own_lengths,
+        padding,
     });
     assert_same(rust, wgsl_layout(SHADE, "Settings"));
 }
@@ -261,4 +266,18 @@ fn body() {
         include_str!("bodies/body.wgsl")
     );
     assert_same(rust, wgsl_layout(source, "Body"));
+}
+
+#[test]
+fn liquid_lengths() {
+    let source = concat!(
+        include_str!("frame.wgsl"),
+        include_str!("passes/tile_pixel.wgsl"),
+        include_str!("passes/paint_sums.wgsl"),
+        include_str!("passes/paint_shares.wgsl"),
+        include_str!("passes/smooth/liquid_lengths.wgsl")
+    );
+    let (mut rust, size) = rust_layout!(LengthsUniform { paint, strengths, sphere_factor, padding });
+    rust.retain(|(name, _)| name != "padding");
+    assert_same((rust, size), wgsl_layout(source, "Liquids"));
 }

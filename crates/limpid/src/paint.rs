@@ -1,6 +1,6 @@
 //! What each particle is painted with: a colour, and which of several liquids it is.
 
-use crate::{Absorption, Error, Optics, Settings};
+use crate::{Absorption, Error, Filter, Optics, Settings};
 
 /// Most liquids in one frame.
 pub const MOST_LIQUIDS: usize = 8;
@@ -81,16 +81,29 @@ impl Settings {
         self.coloring != Coloring::Off || self.liquid_count() > 1
     }
 
-    /// How many liquids there are looks for.
+    /// How many liquids there are looks or smoothing lengths for.
     pub fn liquid_count(&self) -> usize {
-        let others = self.other_liquids.iter().rposition(Option::is_some);
-        others.map_or(1, |last| last + 2)
+        let mut others = self.other_liquids.iter().zip(&self.other_strengths);
+        let last = others.rposition(|(optics, strength)| optics.is_some() || strength.is_some());
+        last.map_or(1, |last| last + 2)
     }
 
     /// The look of a liquid; that of the first where it has none of its own.
     pub(crate) fn look(&self, liquid: usize) -> &Optics {
         let own = liquid.checked_sub(1).and_then(|other| self.other_liquids.get(other)?.as_ref());
         own.unwrap_or(&self.optics)
+    }
+
+    /// The smoothing length of a liquid in r.
+    pub(crate) fn strength(&self, liquid: usize) -> f32 {
+        let own = liquid.checked_sub(1).and_then(|other| *self.other_strengths.get(other)?);
+        own.unwrap_or(self.smoothing.strength)
+    }
+
+    /// Whether some liquid is smoothed otherwise than the first.
+    pub(crate) fn smooths_liquids_apart(&self) -> bool {
+        self.smoothing.filter != Filter::None
+            && (1..self.liquid_count()).any(|liquid| self.strength(liquid) != self.smoothing.strength)
     }
 
     /// What light loses in all liquids stirred together, as far as shadows and caustics are concerned, where r is `radius`.

@@ -15,8 +15,8 @@ use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
 use crate::{
-    Environment, EnvironmentMap, Error, Foam, ParticleBuffers, Particles, Scene, Settings, Smoothing, TargetFormat,
-    TargetViews, View,
+    Environment, EnvironmentMap, Error, Foam, ParticleBuffers, Particles, Scene, Settings, TargetFormat, TargetViews,
+    View,
 };
 use bytemuck::{Pod, Zeroable};
 pub use parts::PartialBuffers;
@@ -65,6 +65,8 @@ pub(crate) struct SettingsUniform {
     pub shading: u32,
     pub fixed_thickness: f32,
     pub layers_px: u32,
+    pub own_lengths: u32,
+    pub padding: u32,
 }
 
 /// Counts of the thickness sums per r: fine enough that rounding vanishes, coarse enough for half a million r.
@@ -477,6 +479,12 @@ impl Renderer {
                 self.thickness.blur(recorder, &targets);
             }
         }
+        if let Some(layout) = paint_layout.filter(|_| settings.smooths_liquids_apart()) {
+            let (layout, paint) = layout.of_liquids(&liquids.paint, &targets);
+            let of_raw = (&layout, &paint);
+            let sums = self.paint.encode(recorder, queue, of_raw, particles, &targets.raw, scene.depth, &targets);
+            self.smooth.mix_lengths(recorder, queue, settings, (&paint, &sums), &targets);
+        }
         let smoothed = self.smooth.encode(recorder, &settings.smoothing, &targets);
         self.normals.encode(recorder, smoothed, scene.depth, &targets);
         let detail = settings.detail.is_on().then(|| self.detail.encode(recorder, queue, frame, smoothed, &targets));
@@ -669,8 +677,8 @@ pub struct FrameBuffers<'a> {
 pub(crate) fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> SettingsUniform {
     let Frame { particles, settings, scene, .. } = *frame;
     let smoothing = &settings.smoothing;
-    // Variances add up over iterations.
-    let strength = smoothing.strength / (smoothing.iterations as f32).sqrt();
+    let strength = smoothing.strength * smoothing.per_iteration();
+    let own_lengths = settings.smooths_liquids_apart() && particles.paint_average().is_some();
     let fluid_scale = settings.filter_scale.divisor() as f32;
     SettingsUniform {
         radius: particles.reference_radius,
@@ -681,7 +689,7 @@ pub(crate) fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> Settings
         thickness_levels: level_count(targets.thickness.size),
         thickness_divisor: settings.thickness_scale.divisor() as f32 / fluid_scale,
         strength,
-        sphere_strength: if settings.anisotropy.enabled { strength / Smoothing::ELLIPSOIDS_SHARE } else { strength },
+        sphere_strength: strength * settings.sphere_factor(),
         ellipsoid_px: settings.anisotropy.min_radius_px,
         max_radius_px: smoothing.max_radius_px as f32 / fluid_scale,
         range: smoothing.range,
@@ -695,5 +703,7 @@ pub(crate) fn settings_uniform(frame: &Frame<'_>, targets: &Targets) -> Settings
         shading: settings.shading as u32,
         fixed_thickness: settings.fixed_thickness.unwrap_or(0.0) * particles.reference_radius,
         layers_px: settings.layers_scale().divisor() / settings.filter_scale.divisor(),
+        own_lengths: own_lengths.into(),
+        padding: 0,
     }
 }

@@ -45,6 +45,9 @@ pub struct Settings {
     /// Looks of the liquids after the first ([`crate::Paint::liquids`]); None: as the first. Default: there is one liquid.
     // A literal: rustc 1.95 fails on the constant here.
     pub other_liquids: [Option<Optics>; 7],
+    /// Smoothing lengths of the liquids after the first in r, 0 to 20, in place of [`Smoothing::strength`]; None, the default:
+    /// that. One filter smooths all liquids as one surface, by what their shares at each pixel mix to.
+    pub other_strengths: [Option<f32>; 7],
     /// What the particles' colours ([`crate::Paint::colors`]) do, default nothing.
     pub coloring: Coloring,
     /// What shading computes, default the colour.
@@ -69,6 +72,7 @@ impl Default for Settings {
             droplet: Droplet::default(),
             optics: Optics::default(),
             other_liquids: [None; 7],
+            other_strengths: [None; 7],
             coloring: Coloring::default(),
             shading: Shading::default(),
         }
@@ -80,6 +84,11 @@ impl Settings {
     pub fn spheres() -> Self {
         let anisotropy = Anisotropy { enabled: false, ..Anisotropy::default() };
         Self { anisotropy, smoothing: Smoothing::default(), layers: false, ..Self::default() }
+    }
+
+    /// Smoothing lengths where balls are spheres over those where they are ellipsoids.
+    pub(crate) fn sphere_factor(&self) -> f32 {
+        if self.anisotropy.enabled { 1.0 / Smoothing::ELLIPSOIDS_SHARE } else { 1.0 }
     }
 
     /// Resolution of what [`Self::layers`] finds behind the front surface: bent light hides that it is coarse. Without a
@@ -280,6 +289,11 @@ impl Smoothing {
         }
     }
 
+    /// One iteration's share of the strength: variances add up.
+    pub(crate) fn per_iteration(&self) -> f32 {
+        1.0 / (self.iterations as f32).sqrt()
+    }
+
     /// The defaults of one form of curvature flow.
     pub const fn flow(form: CurvatureFlow) -> Self {
         let iterations = match form {
@@ -388,6 +402,9 @@ impl Settings {
         within("center smoothing", anisotropy.center_smoothing, 0.0..=1.0, "from 0 to 1")?;
         within("min radius", anisotropy.min_radius_px, 0.0..=1000.0, "from 0 to 1000 pixels")?;
         within("strength", smoothing.strength, 0.0..=20.0, "from 0 to 20")?;
+        for strength in self.other_strengths.into_iter().flatten() {
+            within("strength of a liquid", strength, 0.0..=20.0, "from 0 to 20")?;
+        }
         within("iterations", smoothing.iterations as f32, 1.0..=1000.0, "from 1 to 1000")?;
         within("max radius", smoothing.max_radius_px as f32, 1.0..=256.0, "from 1 to 256")?;
         within("range", smoothing.range, 0.01..=1000.0, "from 0.01 to 1000")?;

@@ -33,7 +33,7 @@ pub(crate) struct Targets {
     pub occupied: wgpu::Buffer,
     /// f32 nearness, the filters' ping-pong.
     pub smooth: [wgpu::Buffer; 2],
-    /// f32: smoothing length at each pixel, world units (`breadth.wgsl`).
+    /// f32: smoothing length at each pixel, world units (`liquid_lengths.wgsl`, `breadth.wgsl`).
     pub smoothing_lengths: wgpu::Buffer,
     /// What curvature flow solves: rows, and columns.
     pub segments: [Segments; 2],

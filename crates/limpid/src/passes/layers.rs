@@ -233,6 +233,7 @@ impl Kernels {
             // They are not stretched here.
             strength: own.sphere_strength,
             max_radius_px: frame.settings.smoothing.max_radius_px as f32 / scale.divisor() as f32,
+            own_lengths: 0,
             ..own
         };
         recorder.write(queue, &self.beyond.settings, &spheres);

@@ -38,6 +38,8 @@ pub(crate) use paint::PaintUniform;
 pub(crate) use paint::{Layout as PaintLayout, LiquidsUniform, Paint};
 pub(crate) use resolve_depth::ResolveDepth;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade, With};
+#[cfg(test)]
+pub(crate) use smooth::LengthsUniform;
 pub(crate) use smooth::{Smooth, segments_bytes};
 pub(crate) use splat::Splat;
 pub(crate) use thickness::{Thickness, level_count, pyramid_texels};

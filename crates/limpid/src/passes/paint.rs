@@ -85,6 +85,17 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// The surface's liquids without colours, where the surface is not yet smooth.
+    pub fn of_liquids(self, paint: &PaintUniform, targets: &Targets) -> (Self, PaintUniform) {
+        let planes = paint.liquids;
+        let pixels = u64::from(targets.size[0]) * u64::from(targets.size[1]);
+        let words = self.surface_first + u64::from(planes) * pixels;
+        let layout = Self { planes, body_first: None, words, ..self };
+        (layout, PaintUniform { planes, first_liquid: 1, coloring: 0, body_first: 0, ..*paint })
+    }
+}
+
 impl LiquidsUniform {
     pub fn new(settings: &Settings, particles: &Particles, layout: Option<&Layout>) -> Self {
         let radius = particles.reference_radius;
@@ -179,7 +190,7 @@ impl Paint {
         &self.large_groups
     }
 
-    /// Sums the paint of all particles.
+    /// Sums the paint of all particles near a surface, `smoothed`, and in the body.
     #[expect(clippy::too_many_arguments, reason = "what the frame consists of")]
     pub fn encode(
         &mut self,

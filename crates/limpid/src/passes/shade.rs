@@ -114,6 +114,7 @@ impl Shade {
             "through.wgsl",
             "thickness_levels.wgsl",
             "paint_sums.wgsl",
+            "paint_shares.wgsl",
             "paint_optics.wgsl",
             "droplets_image.wgsl",
             "droplets_behind.wgsl",

@@ -15,6 +15,7 @@ mod gaussian_windows;
 mod large_splats;
 mod laws;
 mod layers;
+mod liquid_smoothing;
 mod narrow_range;
 mod normals;
 mod occlusion;

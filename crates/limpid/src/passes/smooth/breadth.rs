@@ -16,6 +16,7 @@ impl Breadth {
             "../tile_pixel.wgsl",
             "../nearness_at.wgsl",
             "../sheet.wgsl",
+            "lengths.wgsl",
             "breadth.wgsl"
         );
         Self(Kernel::new(device, frame, &module, "breadth", &[Slot::Read, Slot::Read, Slot::Write]))

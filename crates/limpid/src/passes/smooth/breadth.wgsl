@@ -58,5 +58,5 @@ fn breadth(
     if length < most {
         length = max(length, run(pixel, center, vec2f(0.0, step_px), most, limit));
     }
-    lengths[pixel.index] = smoothstep(DROP, BODY, length / STEPS) * smoothing_length(depth);
+    lengths[pixel.index] = smoothstep(DROP, BODY, length / STEPS) * length_at(pixel.index, depth);
 }

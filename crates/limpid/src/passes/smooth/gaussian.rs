@@ -19,6 +19,7 @@ impl Gaussian {
             "../tile_pixel.wgsl",
             "../nearness_at.wgsl",
             "taps.wgsl",
+            "lengths.wgsl",
             "gaussian.wgsl"
         );
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &PIXEL_SLOTS);

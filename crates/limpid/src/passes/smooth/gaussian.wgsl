@@ -1,7 +1,10 @@
 // The papers' baseline: a plain Gaussian over the pixels that hold fluid, across silhouettes and all. Separable.
 
+@group(1) @binding(3) var<storage, read> lengths: array<f32>;
+
 fn filter_axis(pixel: TilePixel, axis: vec2i) {
-    let window = window_around(pixel, smoothing_length(depth_of(input[min(pixel.index, arrayLength(&input) - 1u)])));
+    let index = min(pixel.index, arrayLength(&input) - 1u);
+    let window = window_around(pixel, length_at(index, depth_of(input[index])));
     if window.empty {
         if pixel.inside {
             output[pixel.index] = window.center;

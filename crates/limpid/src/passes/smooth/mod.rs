@@ -4,9 +4,12 @@ mod bilateral;
 mod breadth;
 mod curvature_flow;
 mod gaussian;
+mod liquid_lengths;
 mod narrow_range;
 
+use crate::Settings;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
+use crate::passes::paint::PaintUniform;
 use crate::settings::{CurvatureFlow as Form, Filter, Smoothing};
 use crate::targets::Targets;
 use bilateral::Bilateral;
@@ -14,10 +17,14 @@ use breadth::Breadth;
 pub(crate) use curvature_flow::segments_bytes;
 use curvature_flow::{Axis, CurvatureFlow};
 use gaussian::Gaussian;
+#[cfg(test)]
+pub(crate) use liquid_lengths::LengthsUniform;
+use liquid_lengths::LiquidLengths;
 use narrow_range::NarrowRange;
 
 #[derive(Clone)]
 pub(crate) struct Smooth {
+    liquid_lengths: LiquidLengths,
     breadth: Breadth,
     gaussian: Gaussian,
     bilateral: Bilateral,
@@ -42,6 +49,7 @@ const PIXEL_SLOTS: [Slot; 4] = [Slot::Read, Slot::Read, Slot::Write, Slot::Read]
 impl Smooth {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         Self {
+            liquid_lengths: LiquidLengths::new(device, frame),
             breadth: Breadth::new(device, frame),
             gaussian: Gaussian::new(device, frame),
             bilateral: Bilateral::new(device, frame),
@@ -58,6 +66,18 @@ impl Smooth {
             Filter::CurvatureFlow => self.curvature_flow.steps(smoothing.iterations, smoothing.curvature_flow),
             Filter::NarrowRange => self.narrow_range.steps(smoothing.iterations),
         }
+    }
+
+    /// Gives each pixel a smoothing length of its own, by the liquids there ([`Settings::other_strengths`]).
+    pub fn mix_lengths(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &wgpu::Queue,
+        settings: &Settings,
+        paint: (&PaintUniform, &wgpu::Buffer),
+        targets: &Targets,
+    ) {
+        self.liquid_lengths.encode(recorder, queue, settings, paint, targets);
     }
 
     /// Smooths `targets.raw` and returns the buffer that holds the result.

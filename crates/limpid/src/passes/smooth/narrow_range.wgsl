@@ -3,6 +3,7 @@
 
 @group(1) @binding(1) var<storage, read> input: array<f32>;
 @group(1) @binding(2) var<storage, read_write> output: array<f32>;
+@group(1) @binding(3) var<storage, read> lengths: array<f32>;
 
 // Half-width of the Gaussian window in standard deviations.
 const REACH: f32 = 2.5;
@@ -48,9 +49,9 @@ fn start_side() -> Side {
     return Side(range, -range);
 }
 
-fn sigma_px(center: f32) -> f32 {
+fn sigma_px(index: u32, center: f32) -> f32 {
     let depth = depth_of(center);
-    return smoothing_length(depth) * px_per_world(depth);
+    return length_at(index, depth) * px_per_world(depth);
 }
 
 fn filter_axis(pixel: TilePixel, axis: vec2i) {
@@ -58,7 +59,7 @@ fn filter_axis(pixel: TilePixel, axis: vec2i) {
         return;
     }
     let center = input[pixel.index];
-    let sigma = sigma_px(center);
+    let sigma = sigma_px(pixel.index, center);
     if center <= 0.0 || sigma <= 0.0 {
         output[pixel.index] = center;
         return;
@@ -121,8 +122,9 @@ fn narrow_range_cleanup(
         return;
     }
     let center = input[pixel.index];
-    let reach = i32(clamp(ceil(0.5 * sigma_px(center)), CLEANUP_PX.x, CLEANUP_PX.y));
-    let sigma = min(sigma_px(center), 0.5 * f32(reach));
+    let whole = sigma_px(pixel.index, center);
+    let reach = i32(clamp(ceil(0.5 * whole), CLEANUP_PX.x, CLEANUP_PX.y));
+    let sigma = min(whole, 0.5 * f32(reach));
     if center <= 0.0 || sigma <= 0.0 {
         output[pixel.index] = center;
         return;
