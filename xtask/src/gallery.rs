@@ -32,6 +32,11 @@ const ENTRIES: &[Entry] = &[
         &[DAM[0], DAM[1], DAM[2], "--look=coffee", "--liquid=milk where=id>=12000"],
     ),
     Entry(
+        "colours/oil.png",
+        "dam_break_double/ParticleData_Fluid_15.bgeo",
+        &["--size=640x360", "--camera-eye=1.5,1.7,4.4", "--camera-target=0,0.7,0", "--liquid=oil where=id>=12000"],
+    ),
+    Entry(
         "water.png",
         "dam_break_double/ParticleData_Fluid_20.bgeo",
         &["--size=960x540", "--camera-eye=2.9,2.0,4.4", "--camera-target=0,0.9,0"],

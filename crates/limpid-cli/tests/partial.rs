@@ -46,6 +46,12 @@ fn what_does_not_fit_is_told_in_one_line() {
     assert!(told(&["a.png", "--part=1/2"]).contains(".partial"));
     assert!(told(&["b.partial", "--part=3/2"]).contains("K/N"));
     assert!(told(&["b.partial", "--part=1/2", "--noise=0.2"]).contains("noise and foam need all particles at once"));
+    // Whose surface a pixel shows is known only when that surface is whole and smooth.
+    let paint = "colours and liquids of particles need all particles at once";
+    for more in ["--color-by=y", "--liquid=milk where=x>0.5"] {
+        assert!(told(&["b.partial", "--part=1/2", more]).contains(paint), "{more}");
+        assert!(told(&["a.png", "--partials=a.partial", more]).contains(paint), "{more}");
+    }
     assert!(told(&["a.png", "--partials=none.partial"]).contains("none.partial"));
     assert!(told(&["a.png", "--partials=broken.partial"]).contains("broken.partial"));
     assert!(told(&["a.png", "--partials=other.partial"]).contains("other.partial"));
