@@ -39,7 +39,9 @@ fn looks() -> Vec<(&'static str, Settings)> {
         ("two liquids", {
             let mut other_liquids = [None; 7];
             other_liquids[0] = Some(Optics { opaque: true, ..Optics::default() });
-            Settings { other_liquids, coloring: Coloring::Absorption(8.0), ..default }
+            let mut other_strengths = [None; 7];
+            other_strengths[0] = Some(1.5);
+            Settings { other_liquids, other_strengths, coloring: Coloring::Absorption(8.0), ..default }
         }),
     ]
 }
