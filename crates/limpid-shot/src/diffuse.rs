@@ -1,9 +1,10 @@
 //! Foam, spray and bubbles: files of their own beside the fluid's, and stray particles of the fluid.
 
 use crate::Error;
-use crate::frame::{FrameParticles, velocities_of};
+use crate::frame::{FrameParticles, Strays, velocities_of};
 use crate::number::short;
 use crate::options::Options;
+use crate::specks::specks;
 use glam::DVec3;
 use limpid::{DropletKind, Droplets, Radius};
 use limpid_io::{Frame, ParticleSet, Selection};
@@ -14,8 +15,10 @@ pub struct Diffuse {
     sources: Vec<Source>,
     /// What of the options files of droplets are read with.
     selection: Selection,
-    strays: Strays,
-    /// Radius of droplets whose file has none, world units.
+    limits: StrayLimits,
+    /// Radius of droplets whose file has none, and of specks of strays on the average, in particle radii.
+    droplet_radius: f32,
+    /// r, world units.
     radius: f32,
     is_single: bool,
     warned: bool,
@@ -31,7 +34,7 @@ struct Source {
 
 /// Which particles of the fluid are spray.
 #[derive(Clone, Copy)]
-struct Strays {
+struct StrayLimits {
     /// Those of lower density; 0: none.
     density: f32,
     /// Those with fewer neighbours within 4 r; 0: none.
@@ -95,11 +98,12 @@ impl Diffuse {
         Ok(Self {
             sources,
             selection: Selection { unit_scale: options.unit_scale, clip: options.clip, ..Selection::default() },
-            strays: Strays {
+            limits: StrayLimits {
                 density: options.spray_density.unwrap_or(0.0) as f32,
                 neighbours: options.spray_neighbours.unwrap_or(0),
             },
-            radius: (options.droplet_radius() * radius_world) as f32,
+            droplet_radius: options.droplet_radius() as f32,
+            radius: radius_world as f32,
             is_single: frames.len() == 1,
             warned: false,
         })
@@ -131,7 +135,7 @@ impl Diffuse {
                 droplets.notes.push(format!("{}: 0 {noun} particles: {reason}", path.display()));
                 continue;
             }
-            let group = Group::of(source.kind, &set, particles.origin(), self.radius);
+            let group = Group::of(source.kind, &set, particles.origin(), self.droplet_radius * self.radius);
             if group.velocities.is_none() {
                 let lack = format!("has no velocity, so its {noun} is drawn round, not stretched along its way");
                 droplets.warnings.push(format!("{}: {lack}", path.display()));
@@ -148,7 +152,7 @@ impl Diffuse {
 
     /// Makes spray of the fluid's strays.
     fn take_strays(&self, frame: &Frame, particles: &mut FrameParticles, droplets: &mut FrameDroplets) {
-        let Strays { density, neighbours } = self.strays;
+        let StrayLimits { density, neighbours } = self.limits;
         if density <= 0.0 && neighbours == 0 || particles.is_empty() {
             return;
         }
@@ -159,8 +163,8 @@ impl Diffuse {
         if particles.velocities().is_none() {
             lack("has no velocity, so its spray is drawn round, not stretched along its way");
         }
-        let (positions, radii, velocities) = particles.take_strays(density, neighbours);
-        if positions.is_empty() {
+        let strays = particles.take_strays(density, neighbours);
+        if strays.positions.is_empty() {
             let limits =
                 [(density > 0.0, "density", f64::from(density)), (neighbours > 0, "neighbours", neighbours.into())];
             let limits = limits.into_iter().filter(|(is_set, ..)| *is_set);
@@ -170,6 +174,7 @@ impl Diffuse {
             droplets.notes.push(note);
             return;
         }
+        let Strays { positions, radii, velocities, .. } = specks(&strays, self.droplet_radius);
         droplets.groups.push(Group { kind: DropletKind::Spray, positions, radii, velocities, life: None });
     }
 }

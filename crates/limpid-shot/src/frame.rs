@@ -42,8 +42,14 @@ impl Paints {
     }
 }
 
-/// Places, radii and velocities of particles.
-pub(crate) type Taken = (Vec<[f32; 3]>, Vec<f32>, Option<Vec<[f32; 3]>>);
+/// Particles of the fluid that are to be spray, about the fluid's origin.
+#[derive(Default)]
+pub(crate) struct Strays {
+    pub positions: Vec<[f32; 3]>,
+    pub radii: Vec<f32>,
+    pub velocities: Option<Vec<[f32; 3]>>,
+    pub ids: Option<Vec<i64>>,
+}
 
 enum Radii {
     Uniform(f32),
@@ -94,9 +100,8 @@ impl FrameParticles {
         self.keep(&solid);
     }
 
-    /// Takes out particles of a density under the limit, and those with fewer `neighbours` within 4 radii (0: none is):
-    /// places, radii, velocities.
-    pub(crate) fn take_strays(&mut self, density: f32, neighbours: u32) -> Taken {
+    /// Takes out particles of a density under the limit, and those with fewer `neighbours` within 4 radii (0: none is).
+    pub(crate) fn take_strays(&mut self, density: f32, neighbours: u32) -> Strays {
         let is_thin = |i: usize| self.density.as_ref().is_some_and(|values| values[i] < density);
         let mut stays: Vec<bool> = (0..self.len()).map(|i| !is_thin(i)).collect();
         if neighbours > 0 {
@@ -109,11 +114,12 @@ impl FrameParticles {
             Radii::Uniform(radius) => *radius,
             Radii::Each(radii) => radii[i],
         };
-        let taken = (
-            strays().map(|i| self.positions[i]).collect(),
-            strays().map(radius).collect(),
-            self.velocities.as_ref().map(|velocities| strays().map(|i| velocities[i]).collect()),
-        );
+        let taken = Strays {
+            positions: strays().map(|i| self.positions[i]).collect(),
+            radii: strays().map(radius).collect(),
+            velocities: self.velocities.as_ref().map(|velocities| strays().map(|i| velocities[i]).collect()),
+            ids: self.ids.as_ref().map(|ids| strays().map(|i| ids[i]).collect()),
+        };
         self.keep(&stays);
         taken
     }

@@ -23,6 +23,7 @@ mod phases;
 mod props;
 mod reading;
 mod size;
+mod specks;
 mod survey;
 mod tint;
 

@@ -32,8 +32,8 @@ const COLOR_DEPTH: f64 = 6.0;
 /// Frames per second where nothing else is asked for: what most simulations are written at.
 const FPS: f64 = 25.0;
 
-/// Radius of droplets in particle radii: what foam generators make is finer than the fluid.
-const DROPLET_RADIUS: f64 = 0.5;
+/// Radius of droplets in particle radii: what foam generators make is much finer than the fluid.
+const DROPLET_RADIUS: f64 = 0.2;
 
 /// A film camera's half of the time.
 const SHUTTER: f64 = 0.5;
@@ -346,13 +346,13 @@ pub struct Options {
     /// Bubble particles, in the same way: `_bubbles`
     #[arg(long, value_name = "INPUT", help_heading = "Droplets")]
     pub bubble_particles: Option<String>,
-    /// Draw particles of the fluid of lower density as spray, in the file's unit; 0: none
+    /// Break particles of the fluid of lower density up into spray, in the file's unit; 0: none
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Droplets")]
     pub spray_density: Option<f64>,
-    /// Draw particles of the fluid with fewer neighbours than this within 4 radii as spray; 0: none
+    /// Break particles of the fluid with fewer neighbours than this within 4 radii up into spray; 0: none
     #[arg(long, value_name = "N", help_heading = "Droplets")]
     pub spray_neighbours: Option<u32>,
-    /// Radius of foam, spray and bubbles whose file has none, in particle radii
+    /// Radius of foam, spray and bubbles whose file has none, and mean radius of spray from the fluid, in particle radii
     #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Droplets")]
     pub droplet_radius: Option<f64>,
     /// Opacity of one droplet in its middle; their colour is --foam-color

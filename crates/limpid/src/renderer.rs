@@ -637,8 +637,8 @@ pub struct DetailBuffer<'a> {
 pub struct DropletsBuffer<'a> {
     /// The fluid's own pixels across and down, as in [`DetailBuffer::size`].
     pub size: [u32; 2],
-    /// Three images of u32 after each other, row 0 at the top: optical depth of the droplets before the surface in counts of
-    /// [`Self::COUNT`]; of those behind it; and that times their distance behind it.
+    /// Four images of u32 after each other, row 0 at the top: optical depth of the droplets before the surface in counts of
+    /// [`Self::COUNT`]; of those behind it; that times their distance behind it; and of those before it, the foam on it.
     pub sums: &'a wgpu::Buffer,
 }
 

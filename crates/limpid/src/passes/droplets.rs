@@ -11,7 +11,7 @@ use bytemuck::{Pod, Zeroable};
 /// Words before the indices in `droplets_splat.wgsl`'s `LargeSplats`.
 const HEADER_WORDS: u64 = 4;
 /// Images of sums.
-const PLANES: u64 = 3;
+const PLANES: u64 = 4;
 
 #[derive(Clone)]
 pub(crate) struct DropletsPass {

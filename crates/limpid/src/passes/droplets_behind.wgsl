@@ -6,6 +6,13 @@ struct Veil {
     distance: f32, // behind the surface, world units
 }
 
+// Opacity of the foam on the surface.
+fn afloat_at(px: vec2f) -> f32 {
+    let pixel = vec2u(px);
+    let counts = droplet_sums[AFLOAT * view.size.x * view.size.y + pixel.y * view.size.x + pixel.x];
+    return opacity_of(f32(counts) / DEPTH_UNIT);
+}
+
 // At a pixel position, bilinear.
 fn veil_at(px: vec2f) -> Veil {
     let plane = view.size.x * view.size.y;

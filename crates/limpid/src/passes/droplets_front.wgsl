@@ -1,4 +1,4 @@
-// Droplets before the surface and in the air, over the host's picture with the fluid in it.
+// Droplets before the surface and in the air, over the host's picture with the fluid in it; foam on it is in that already.
 
 @group(1) @binding(0) var<storage, read> sums: array<u32>;
 @group(1) @binding(1) var<uniform> droplets: Droplets;
@@ -16,7 +16,11 @@ fn front(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let offset = vec2u(corner & 1u, corner >> 1u);
         let texel = min(low + offset, view.size - 1u);
         let along = select(1.0 - part, part, offset == vec2u(1u));
-        counts += along.x * along.y * f32(sums[BEFORE * view.size.x * view.size.y + texel.y * view.size.x + texel.x]);
+        let plane = view.size.x * view.size.y;
+        let index = texel.y * view.size.x + texel.x;
+        // Where sums are full, the parts may be more than the whole.
+        let before = sums[BEFORE * plane + index];
+        counts += along.x * along.y * f32(before - min(sums[AFLOAT * plane + index], before));
     }
     if counts <= 0.0 {
         discard;

@@ -10,10 +10,12 @@ struct Droplets {
     bubble_lift: f32,
 }
 
-// Optical depth before the surface; behind it; that times the distance behind it.
+// Optical depth before the surface; behind it; that times the distance behind it; of that before the surface, what is foam
+// on it, which shading lights with the surface.
 const BEFORE: u32 = 0u;
 const BEHIND: u32 = 1u;
 const BEHIND_DISTANCE: u32 = 2u;
+const AFLOAT: u32 = 3u;
 
 // Counts of an optical depth of 1, and of that times 1 r.
 const DEPTH_UNIT: f32 = 4096.0;

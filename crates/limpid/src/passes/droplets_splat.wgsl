@@ -35,6 +35,7 @@ struct Streak {
     radius: f32,
     density: f32,
     lift: f32, // world units towards the eye when compared with the surface
+    is_foam: bool,
     box: PixelBox,
 }
 
@@ -57,9 +58,10 @@ fn streak_of(index: u32) -> Streak {
         box = PixelBox(min(first.min, last.min), max(first.max, last.max));
     }
     let alive = clamp(life_kind.x / max(droplets.fade, 1e-9), 0.0, 1.0);
-    let lift = select(0.0, droplets.foam_lift, life_kind.y == KIND_FOAM);
+    let is_foam = life_kind.y == KIND_FOAM;
+    let lift = select(select(0.0, droplets.foam_lift, is_foam), droplets.bubble_lift, life_kind.y == KIND_BUBBLES);
     let density = droplets.density * alive * thinner * thinner;
-    return Streak(start, along, widest, density, select(lift, droplets.bubble_lift, life_kind.y == KIND_BUBBLES), box);
+    return Streak(start, along, widest, density, lift, is_foam, box);
 }
 
 fn add(plane: u32, pixel: u32, value: f32) {
@@ -96,7 +98,9 @@ fn splat_pixel(streak: Streak, at: vec2i) {
     let before = clamp(0.5 + (surface - depth + streak.lift) / diameter, 0.0, 1.0);
     let behind = optical_depth * shown * (1.0 - before);
     let distance = clamp((depth - surface) / settings.radius, 0.0, FARTHEST);
-    add(BEFORE, index, optical_depth * shown * before * DEPTH_UNIT);
+    let in_front = optical_depth * shown * before * DEPTH_UNIT;
+    add(BEFORE, index, in_front);
+    add(AFLOAT, index, select(0.0, in_front, streak.is_foam && near > 0.0));
     add(BEHIND, index, behind * DEPTH_UNIT);
     add(BEHIND_DISTANCE, index, behind * distance * DISTANCE_UNIT);
 }

@@ -165,8 +165,14 @@ fn color_of(sight: Sight, foam: f32) -> vec4f {
     let inner = passed * (1.0 - behind.share) * behind.inner;
     let transmitted = passed * behind.share;
     let alpha = 1.0 - (1.0 - behind.color.a) * dot(transmitted, vec3f(1.0 / 3.0));
-    let liquid = vec4f(own + inner + transmitted * behind.color.rgb, alpha);
-    return mix(liquid, vec4f(detail.foam_color * lit, 1.0), select(0.0, foam, FOAM));
+    var color = vec4f(own + inner + transmitted * behind.color.rgb, alpha);
+    if FOAM {
+        color = mix(color, vec4f(detail.foam_color * lit, 1.0), foam);
+    }
+    if DROPLETS {
+        color = mix(color, vec4f(droplets.color * lit, 1.0), afloat_at(sight.px));
+    }
+    return color;
 }
 
 fn shading_of(sight: Sight, foam: f32) -> vec4f {
