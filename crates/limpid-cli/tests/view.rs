@@ -7,7 +7,8 @@ use common::Folder;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const SHOT: &str = "size = \"480x320\"\nlook = \"pool\"\nthickness-scale = 1\nsamples = 3\n";
+const SHOT: &str = "size = \"480x320\"\nlook = \"pool\"\nthickness-scale = 1\nsamples = 3\n\
+    spray-neighbours = 12\nfoam-particles = \"foam_{}.csv\"\ndroplet-radius = 0.5\n";
 
 /// `limpid view` in a folder, without a screen.
 fn view(folder: &Folder, arguments: &[&str]) -> Output {
@@ -20,6 +21,11 @@ fn view(folder: &Folder, arguments: &[&str]) -> Output {
 fn the_window_shows_the_picture_that_render_makes() {
     let folder = Folder::new();
     folder.write("shot.toml", SHOT);
+    // Before the liquid, on it and in it.
+    for frame in ["32", "42", "52"] {
+        folder
+            .write(&format!("foam_{frame}.csv"), "x,y,z,vx,vy,vz\n0,0.9,0.4,3,0,0\n0,0.2,0.3,0,0,0\n0.1,0.1,0,0,0,0\n");
+    }
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/jet");
     let frames = ["32", "42", "52"].map(|n| data.join(format!("ParticleData_Fluid_{n}.bgeo")).display().to_string());
     let shared = [&frames.each_ref().map(String::as_str)[..], &["--config", "shot.toml"]].concat();

@@ -35,8 +35,8 @@ const FPS: f64 = 25.0;
 /// Radius of droplets in particle radii: what foam generators make is much finer than the fluid.
 const DROPLET_RADIUS: f64 = 0.2;
 
-/// A film camera's half of the time.
-const SHUTTER: f64 = 0.5;
+/// Short, as splashes are photographed: a film camera's half of the time makes rain of spray.
+const SHUTTER: f64 = 0.15;
 
 /// Strength of the built-in sun.
 const SUN: f64 = 1.0;

@@ -84,6 +84,8 @@ struct Compared {
 #[derive(Default)]
 struct Stand {
     key: Option<(Options, u64)>,
+    /// Those of all frames.
+    files: Vec<limpid_io::Frame>,
     props: Props,
     meshes: Vec<limpid::Mesh>,
     environment: Option<String>,
@@ -324,7 +326,8 @@ impl Viewer {
         let environment = options.environment.clone().filter(|path| !path.is_empty());
         let mut problems = Vec::new();
         if self.stand.key != key {
-            match Props::load(options, &frames.list()) {
+            self.stand.files = frames.list();
+            match Props::load(options, &self.stand.files) {
                 Ok(props) => {
                     self.stand.meshes = props.upload(&self.gpu.device, &self.gpu.queue);
                     problems.extend(props.warnings.iter().cloned());
@@ -370,6 +373,7 @@ impl Viewer {
                     generation: self.generation,
                     index: self.index,
                     frame: &frame,
+                    files: &self.stand.files,
                     set: &set,
                     survey,
                     props: &self.stand.props,
@@ -411,6 +415,7 @@ impl Viewer {
             self.wants_picture &= wanted.options.show.is_some();
             self.drawn = Some(wanted);
         }
+        problems.append(&mut self.picture.remarks);
         problems.into_iter().for_each(|problem| self.complain(problem));
     }
 

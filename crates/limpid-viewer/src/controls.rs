@@ -7,12 +7,7 @@ use limpid_shot::{Options, Range, look};
 use toml::{Table, Value};
 
 /// Options that are no settings of the picture, or have places of their own in the window.
-const ELSEWHERE: [&str; 19] = [
-    "foam-particles",
-    "spray-particles",
-    "bubble-particles",
-    "spray-density",
-    "spray-neighbours",
+const ELSEWHERE: [&str; 14] = [
     "liquid",
     "input",
     "output",
@@ -30,7 +25,7 @@ const ELSEWHERE: [&str; 19] = [
 ];
 
 /// The groups, as the pipeline is; those that are not listed come last.
-const GROUPS: [&str; 6] = ["Surface", "Quality", "Living surface", "Look", "Scene", "Camera"];
+const GROUPS: [&str; 7] = ["Surface", "Quality", "Living surface", "Droplets", "Look", "Scene", "Camera"];
 
 /// The panel of settings.
 pub struct Controls {

@@ -5,7 +5,7 @@ use eframe::egui_wgpu::{RenderState, wgpu};
 use limpid::{Body, Particles, PassTime, Profiler};
 use limpid_headless::{Aov, Download, Painter, Peek, Shot, mean_of, sample_offset_px};
 use limpid_io::Frame;
-use limpid_shot::{Error, FrameParticles, Legend, Living, Options, Paints, Pose, Props, Stage, Survey};
+use limpid_shot::{Diffuse, Error, FrameParticles, Legend, Living, Options, Paints, Pose, Props, Stage, Survey};
 use std::sync::Arc;
 
 /// A picture in the window, with all that it takes to draw it again.
@@ -15,6 +15,9 @@ pub struct Picture {
     drawn_size: [u32; 2],
     loaded: Option<Loaded>,
     living: Option<(Options, Living)>,
+    diffuse: Option<(DropletKey, Diffuse)>,
+    /// What files lack, and what is done instead, since the last look.
+    pub remarks: Vec<String>,
     peek: Option<Peek>,
     /// The buffer that is shown, once it has arrived.
     shown_buffer: Option<egui::TextureHandle>,
@@ -51,8 +54,12 @@ struct Key {
     index: usize,
     radius: u64,
     detail: Option<Options>,
+    droplets: Options,
     paints: Paints,
 }
+
+/// What the sources of droplets depend on: options, sequence and radius.
+type DropletKey = (Options, u64, u64);
 
 /// What to draw.
 pub struct Wanted<'a> {
@@ -64,6 +71,8 @@ pub struct Wanted<'a> {
     pub index: usize,
     /// Its file.
     pub frame: &'a Frame,
+    /// Those of all frames.
+    pub files: &'a [Frame],
     /// Its particles.
     pub set: &'a Arc<limpid_io::ParticleSet>,
     /// All frames.
@@ -87,6 +96,8 @@ impl Picture {
             drawn_size: [0; 2],
             loaded: None,
             living: None,
+            diffuse: None,
+            remarks: Vec::new(),
             peek: None,
             shown_buffer: None,
             shown_bytes: Vec::new(),
@@ -127,6 +138,7 @@ impl Picture {
             index: wanted.index,
             radius: survey.radius_world().to_bits(),
             detail: settings.detail.is_on().then(|| living_part(options)),
+            droplets: droplet_part(options),
             paints,
         };
         let is_new = self.loaded.as_ref().is_none_or(|loaded| loaded.key != key);
@@ -138,15 +150,24 @@ impl Picture {
                 self.living = Some((part, Living::new(options)));
             }
             if let Some((_, living)) = &mut self.living {
-                living.advance(wanted.frame, &mut frame);
+                self.remarks.extend(living.advance(wanted.frame, &mut frame).warnings);
             }
-            fresh = Some(frame);
+            let sources = (key.droplets.clone(), key.generation, key.radius);
+            let known = self.diffuse.take().filter(|(before, _)| *before == sources);
+            let (_, diffuse) = self.diffuse.insert(match known {
+                Some(known) => known,
+                None => (sources, Diffuse::find(options, wanted.files, survey.radius_world())?),
+            });
+            let droplets = diffuse.advance(wanted.frame, wanted.index, &mut frame)?;
+            self.remarks.extend_from_slice(&droplets.warnings);
+            fresh = Some((frame, droplets));
         }
         let bodies = wanted.props.at(wanted.frame, wanted.meshes);
-        if let Some(frame) = fresh {
+        if let Some((frame, droplets)) = fresh {
             // The old ones go first: they may not fit beside the new.
             self.loaded = None;
-            let particles = Painter::upload(&gpu.device, &gpu.queue, &stage.shot(options, &frame, &[]))?;
+            let shot = Shot { droplets: &droplets.slices(), ..stage.shot(options, &frame, &[]) };
+            let particles = Painter::upload(&gpu.device, &gpu.queue, &shot)?;
             self.loaded = Some(Loaded { key, frame, particles });
         }
         let Some(loaded) = &self.loaded else { return Ok(stage.pose()) };
@@ -339,6 +360,21 @@ fn living_part(options: &Options) -> Options {
         foam: options.foam,
         foam_speed_min: options.foam_speed_min,
         foam_speed_max: options.foam_speed_max,
+        ..Options::default()
+    }
+}
+
+/// The options that droplets are found by.
+fn droplet_part(options: &Options) -> Options {
+    Options {
+        foam_particles: options.foam_particles.clone(),
+        spray_particles: options.spray_particles.clone(),
+        bubble_particles: options.bubble_particles.clone(),
+        spray_density: options.spray_density,
+        spray_neighbours: options.spray_neighbours,
+        droplet_radius: options.droplet_radius,
+        unit_scale: options.unit_scale,
+        clip: options.clip,
         ..Options::default()
     }
 }

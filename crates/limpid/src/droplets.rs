@@ -44,7 +44,7 @@ pub struct Droplets<'a> {
 pub struct Droplet {
     /// Opacity in the middle of one that does not move, 0 to 0.99, default 0.9.
     pub opacity: f32,
-    /// Seconds for which the picture is exposed, 0 to 1000, default 0.02: half of a frame of 25 in a second.
+    /// Seconds for which the picture is exposed, 0 to 1000, default 0.006: drops stay drops.
     pub shutter: f32,
     /// Seconds before the end of its life in which a droplet fades, 0 to 1000000, default 0.5.
     pub fade: f32,
@@ -54,7 +54,7 @@ pub struct Droplet {
 
 impl Default for Droplet {
     fn default() -> Self {
-        Self { opacity: 0.9, shutter: 0.02, fade: 0.5, color: [0.9, 0.93, 0.95] }
+        Self { opacity: 0.9, shutter: 0.006, fade: 0.5, color: [0.9, 0.93, 0.95] }
     }
 }
 
