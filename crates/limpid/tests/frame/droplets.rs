@@ -1,7 +1,7 @@
 //! Foam, spray and bubbles as particles of their own: against the twin, and what must hold.
 
 use crate::common::{Cloud, Difference, Random, SIZE, above, forward_orthographic, looking, shot_of, with_gpu};
-use crate::reference::{Camera, droplets as twin};
+use crate::reference::{Camera, droplets as twin, light_on};
 use glam::{DVec3, dvec3};
 use limpid::{Absorption, Droplet, DropletKind, Droplets, Optics, Radius, Settings, View};
 use limpid_headless::{Aov, Background, Shot};
@@ -163,6 +163,36 @@ fn foam_floats_and_bubbles_stay_under() {
     {
         assert_eq!(DropletKind::ALL.map(|kind| shown(kind, height)), expected, "{height} r above the surface");
     }
+}
+
+#[test]
+fn foam_is_lit_with_the_surface_that_it_lies_on() {
+    let slab = Cloud::slab(24, 4, 0.05, 0.0);
+    let (view, size) = (above(3.0, 1.0, [64, 64]), [64, 64]);
+    let middle = 32 * 64 + 32;
+    let look = Droplet { opacity: 0.99, color: [0.8, 0.6, 0.4], ..LOOK };
+    let settings = Settings { droplet: look, layers: false, ..Settings::default() };
+    let plain = shot_of(&slab, view, size, settings);
+    let color = |kinds: &[DropletKind]| {
+        // Enough of it on the surface to hide what is below.
+        let group = |kind: &DropletKind| Group {
+            positions: vec![[0.0, 0.25, 0.0]; 4],
+            radii: vec![0.2; 4],
+            velocities: vec![[0.0; 3]; 4],
+            life: vec![100.0; 4],
+            kind: *kind,
+        };
+        let groups: Vec<Group> = kinds.iter().map(group).collect();
+        let droplets: Vec<Droplets<'_>> = groups.iter().map(Group::slices).collect();
+        let shot = Shot { droplets: &droplets, ..plain };
+        let image = with_gpu(|offscreen| offscreen.render(&shot, &[Aov::Color])).unwrap().aovs.remove(0);
+        dvec3(image.values[4 * middle].into(), image.values[4 * middle + 1].into(), image.values[4 * middle + 2].into())
+    };
+    let expected = light_on(&plain.environment, DVec3::Y, DVec3::ONE) * dvec3(0.8, 0.6, 0.4);
+    let foam = color(&[DropletKind::Foam]);
+    assert!((foam / expected - 1.0).abs().max_element() < 0.03, "{foam} instead of {expected}");
+    // Spray is drawn over the picture, not shaded with the liquid.
+    assert_eq!(color(&[DropletKind::Spray]), color(&[]));
 }
 
 #[test]

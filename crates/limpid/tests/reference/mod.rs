@@ -25,7 +25,7 @@ pub use caustics::{Caustics, SunSurface, TEXELS as CAUSTIC_TEXELS};
 pub use curvature_flow::{curvature_flow, mean_curvature};
 pub use detail::living;
 pub use droplets::droplets;
-pub use environment::{Scene, Surroundings, scene_of};
+pub use environment::{Scene, Surroundings, light_on, scene_of};
 pub use narrow_range::narrow_range;
 pub use normals::normals;
 pub use paint::{body_paint, surface_paint};
