@@ -1,5 +1,8 @@
 // From the fluid's own lower resolution to the picture's (van der Laan 2009, section 3.5.1): the shaded colour is blended,
 // over silhouettes too, which softens them; depth and normals are interpolated only within one sheet of fluid.
+//
+// Colours are blended by weights that fall with their brightness (Karis 2013, after Reinhard's tone curve): a glint in one
+// texel, many times as bright as white, would otherwise be a white disc of eight texels' width.
 
 @group(1) @binding(0) var<storage, read> raw: array<f32>;
 @group(1) @binding(1) var<storage, read> nearness: array<f32>;
@@ -25,6 +28,7 @@ fn upsample(@builtin(global_invocation_id) pixel: vec3u) {
     var weights: array<f32, 4>;
     var coverage = 0.0;
     var color = vec4f(0.0);
+    var color_weight = 0.0;
     var main_nearness = 0.0; // of the covered texel with most weight
     var main_weight = 0.0;
     for (var corner = 0; corner < 4; corner++) {
@@ -35,7 +39,10 @@ fn upsample(@builtin(global_invocation_id) pixel: vec3u) {
         let near = nearness[texels[corner]];
         weights[corner] = select(0.0, along.x * along.y, near > 0.0);
         if near > 0.0 {
-            color += weights[corner] * shaded[texels[corner]];
+            let texel_color = shaded[texels[corner]];
+            let weight = weights[corner] / (1.0 + max(texel_color.r, max(texel_color.g, texel_color.b)));
+            color += weight * texel_color;
+            color_weight += weight;
         }
         coverage += weights[corner];
         if weights[corner] > main_weight {
@@ -71,5 +78,6 @@ fn upsample(@builtin(global_invocation_id) pixel: vec3u) {
     picture_raw[index] = side * raw_near;
     picture_surface[index] = vec4f(normalize(normal_thickness.xyz), normal_thickness.w / sheet);
     let px = (vec2f(pixel.xy) + 0.5) / settings.fluid_scale;
+    color *= coverage / color_weight;
     picture_shaded[index] = select(color, vec4f(0.0), depth_of(near) >= scene_depth_at(px));
 }

@@ -31,7 +31,10 @@ pub fn upsampled(coarse: &Camera, low: &Surface, size: [u32; 2], scale: f64, ste
         if coverage < 0.5 {
             continue;
         }
-        picture.color[i] = covered.iter().map(|(k, weight)| *weight * low.color[*k]).sum();
+        // Glints weigh less than what is around them.
+        let toned = |(k, weight): &(usize, f64)| weight / (1.0 + low.color[*k].truncate().max_element());
+        let color: DVec4 = covered.iter().map(|texel| toned(texel) * low.color[texel.0]).sum();
+        picture.color[i] = coverage * color / covered.iter().map(toned).sum::<f64>();
         // Depths are compared along the tangent: z0 (z - z0) / z.
         let main_depth = low.depth[main];
         let tangential = |k: usize| main_depth * (low.depth[k] - main_depth) / low.depth[k];
