@@ -27,11 +27,6 @@ pub struct ViewArguments {
 pub fn run(arguments: Box<ViewArguments>) -> Result<(), Failure> {
     let ViewArguments { options: flags, config, play, screenshot } = *arguments;
     let options = config::effective(&flags, config.as_deref())?;
-    if options.liquid.iter().flatten().any(|liquid| liquid.input.is_some()) {
-        return Err(Failure::usage(
-            "--liquid with files of its own is for `limpid render`: view tells liquids apart by --phase-by",
-        ));
-    }
     let inputs = options.input.as_deref().filter(|inputs| !inputs.is_empty());
     let mut sequence = inputs.map(limpid_io::expand).transpose()?;
     if let Some(sequence) = &mut sequence {

@@ -52,6 +52,23 @@ fn the_window_shows_the_picture_that_render_makes() {
 }
 
 #[test]
+fn the_window_shows_liquids_of_several_files() {
+    let folder = Folder::new();
+    let rows = |x: f32| common::cube(4, 0.0).into_iter().map(move |at| format!("{},{},{}", x + at[0], at[1], at[2]));
+    for (name, x) in [("water_1.csv", 0.0), ("milk_1.csv", 0.8)] {
+        folder.write(name, format!("x,y,z\n{}\n", rows(x).collect::<Vec<_>>().join("\n")));
+    }
+    let shared =
+        ["water_1.csv", "--liquid", "milk input=milk_1.csv", "--radius", "0.1", "--size", "320x200", "--samples", "2"];
+    let output = folder.limpid(&[&["render"], &shared[..], &["-o", "made.png"]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = view(&folder, &[&shared[..], &["--screenshot", "seen.png"]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let pixels = |name: &str| image::open(folder.path(name)).unwrap().to_rgb8();
+    assert!(pixels("seen.png") == pixels("made.png"));
+}
+
+#[test]
 fn without_a_display_it_says_so() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_limpid"));
     let output = command.arg("view").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();

@@ -5,12 +5,13 @@ use crate::{Attribute, ParticleSet, Values};
 /// What tells the files apart afterwards.
 pub const PHASE: &str = "phase";
 
-/// Joins particles of several files, each with the number that its particles have for an attribute [`PHASE`]; none of no
-/// files.
+/// Joins particles of a file and of others, each with the number that its particles have for an attribute [`PHASE`].
 ///
 /// Attributes that a file lacks are NaN for its particles. Ids stay distinct, but change; they go where a file has none.
 /// Where files have radii, each particle has its own: a file without has the first one's.
-pub fn join(files: Vec<(i32, ParticleSet)>) -> Option<ParticleSet> {
+pub fn join(first: (i32, ParticleSet), others: Vec<(i32, ParticleSet)>) -> ParticleSet {
+    let (path, format) = (first.1.path.clone(), first.1.format);
+    let files: Vec<(i32, ParticleSet)> = std::iter::once(first).chain(others).collect();
     let phase = |(phase, set): &(i32, ParticleSet)| vec![*phase; set.len()];
     let phases = files.iter().flat_map(phase).collect();
     let mut sets: Vec<ParticleSet> = files.into_iter().map(|(_, set)| set).collect();
@@ -30,15 +31,14 @@ pub fn join(files: Vec<(i32, ParticleSet)>) -> Option<ParticleSet> {
     });
     let mut attributes: Vec<Attribute> = joined.collect();
     attributes.push(Attribute { name: PHASE.into(), components: 1, values: Values::I32(phases) });
-    let origin = sets.first()?.origin;
+    let origin = sets[0].origin;
     let positions = sets.iter().flat_map(|set| {
         let shift = [0, 1, 2].map(|axis| set.origin[axis] - origin[axis]);
         set.positions.iter().map(move |at| [0, 1, 2].map(|axis| (f64::from(at[axis]) + shift[axis]) as f32))
     });
     let positions = positions.collect();
     let warnings = sets.iter().flat_map(|set| set.warnings.clone()).collect();
-    let first = sets.into_iter().next()?;
-    Some(ParticleSet { origin, positions, attributes, file_radius: None, warnings, ..first })
+    ParticleSet { path, format, origin, positions, attributes, file_radius: None, warnings }
 }
 
 /// Gives each particle a radius where any file has one.
@@ -110,7 +110,7 @@ mod tests {
             vec![("id", 1, Values::I64(vec![0, 1])), ("velocity", 3, Values::F32((0..6).map(|x| x as f32).collect()))],
         );
         let oil = set(1, 90.0, vec![("id", 1, Values::I64(vec![0])), ("Type", 1, Values::I32(vec![7]))]);
-        let both = join(vec![(0, water), (2, oil)]).unwrap();
+        let both = join((0, water), vec![(2, oil)]);
         assert_eq!(both.positions, [[0.0; 3], [1.0, 0.0, 0.0], [-10.0, 0.0, 0.0]]);
         assert_eq!(both.attribute(PHASE).unwrap().values, Values::I32(vec![0, 0, 2]));
         assert_eq!(both.attribute("id").unwrap().values, Values::I64(vec![0, 2, 1]));
@@ -120,7 +120,6 @@ mod tests {
         assert!(kinds[0].is_nan() && kinds[1].is_nan() && kinds[2] == 7.0);
         assert_eq!(both.warnings.len(), 2);
         assert!(both.attributes.iter().all(|a| a.values.len() == a.components * both.len()));
-        assert_eq!(join(Vec::new()), None);
     }
 
     #[test]
@@ -128,7 +127,7 @@ mod tests {
         let water = ParticleSet { file_radius: Some(0.5), ..set(2, 0.0, vec![]) };
         let oil = set(1, 0.0, vec![("radius", 1, Values::F32(vec![0.25]))]);
         let other = set(1, 0.0, vec![("id", 1, Values::I64(vec![5]))]);
-        let all = join(vec![(0, water), (1, oil), (2, other)]).unwrap();
+        let all = join((0, water), vec![(1, oil), (2, other)]);
         assert_eq!(all.radii(), Some(&[0.5, 0.5, 0.25, 0.5][..]));
         assert!(all.file_radius.is_none() && all.attribute("id").is_none());
     }

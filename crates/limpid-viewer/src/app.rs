@@ -152,14 +152,23 @@ impl Viewer {
     pub fn open(&mut self, ctx: &egui::Context, files: Vec<(limpid_io::Frame, Source)>) {
         let ctx = ctx.clone();
         self.inputs = files.iter().map(|(frame, _)| frame.path.display().to_string()).collect();
-        // What is no condition is said below, and leaves all particles.
-        let reading = Reading::of(self.book.options());
-        let problem = reading.as_ref().err().map(ToString::to_string);
-        self.frames = Some(Frames::new(files, reading.unwrap_or_default(), move || ctx.request_repaint()));
+        // What is no condition, or no file, is said below, and leaves all particles.
+        let frames: Vec<_> = files.iter().map(|(frame, _)| frame.clone()).collect();
+        let options = self.book.options();
+        let mut problems = Vec::new();
+        let mut reading = Reading::of(options).unwrap_or_else(|error| {
+            problems.push(error.to_string());
+            Reading::default()
+        });
+        match reading.find_liquids(options, &frames) {
+            Ok(warnings) => problems.extend(warnings),
+            Err(error) => problems.push(error.to_string()),
+        }
+        self.frames = Some(Frames::new(files, reading, move || ctx.request_repaint()));
         self.generation += 1;
         self.index = 0;
         self.clock = 0.0;
-        self.problems = problem.into_iter().collect();
+        self.problems = problems;
     }
 
     fn obey(&mut self, ctx: &egui::Context, command: Command) {
