@@ -8,7 +8,7 @@
 use crate::error::{Fault, broken, quote};
 use crate::input::Input;
 use crate::raw::{Positions, Raw};
-use crate::values::{Encoding, Scalar, Slot};
+use crate::values::{Encoding, Scalar, Slot, triples};
 use crate::{Attribute, Values};
 
 pub(crate) const MAGIC: &[u8] = b"Bgeo";
@@ -27,8 +27,7 @@ struct Header {
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let header = read_header(input)?;
-    let mut slots =
-        [0, 4, 8].map(|offset| (String::new(), Slot { scalar: Scalar::F32, components: 1, offset })).to_vec();
+    let mut slots = Vec::new();
     let mut size = POSITION_SIZE;
     for _ in 0..header.attributes {
         let (name, components, scalar) = read_declaration(input)?;
@@ -43,7 +42,9 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
 
     let capacity = input.claim(header.points, size)?;
     let mut arrays: Vec<Values> = slots.iter().map(|(_, slot)| slot.scalar.array(capacity * slot.components)).collect();
+    let mut positions = Vec::with_capacity(capacity);
     input.blocks(header.points, size, |block| {
+        positions.extend(triples(block, size, 0, Encoding::Big));
         for (array, (_, slot)) in arrays.iter_mut().zip(&slots) {
             array.extend_from_records(block, size, *slot, Encoding::Big);
         }
@@ -52,12 +53,10 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
         return broken!("the end mark after its {} points is missing", header.points);
     }
 
-    let mut named = slots.into_iter().zip(arrays);
-    let mut column = || named.next().expect("x, y and z are the first slots").1;
-    let positions = Positions::from_columns([column(), column(), column()]);
+    let attributes = slots.into_iter().zip(arrays);
     let attributes =
-        named.map(|((name, slot), values)| Attribute { name, components: slot.components, values }).collect();
-    Ok(Raw { attributes, ..Raw::new(positions) })
+        attributes.map(|((name, slot), values)| Attribute { name, components: slot.components, values }).collect();
+    Ok(Raw { attributes, ..Raw::new(Positions::F32(positions)) })
 }
 
 fn read_header(input: &mut Input) -> Result<Header, Fault> {

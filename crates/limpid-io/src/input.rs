@@ -11,7 +11,9 @@ use flate2::read::GzDecoder;
 
 use crate::error::{Fault, broken, quote};
 
-const BUFFER: usize = 1 << 18;
+const BUFFER: usize = 1 << 17;
+/// Twice the buffer: what is left of a block once the buffer is empty goes past it, from the file into the block.
+const BLOCK: usize = 2 * BUFFER;
 const HEAD: usize = 64;
 const LONGEST_LINE: usize = 1 << 16;
 const LONGEST_WORD: usize = 1 << 10;
@@ -137,7 +139,7 @@ impl<'a> Input<'a> {
 
     /// Hands over `count` records of `size` bytes, many whole ones at a time.
     pub fn blocks(&mut self, count: u64, size: usize, mut each: impl FnMut(&[u8])) -> Result<(), Fault> {
-        let per_block = (BUFFER / size).max(1) as u64;
+        let per_block = (BLOCK / size).max(1) as u64;
         let mut block = vec![0; per_block.min(count) as usize * size];
         let mut left = count;
         while left > 0 {

@@ -1,6 +1,6 @@
 //! One name for each attribute that solvers call by several, and vectors from columns of components.
 
-use crate::raw::Positions;
+use crate::raw::{Positions, zip};
 use crate::{Attribute, Values};
 
 /// Canonical names with their aliases, best first, and the component counts that make sense.
@@ -90,15 +90,28 @@ pub(crate) fn join_components(attributes: &mut Vec<Attribute>) {
         while index < attributes.len() {
             let base = strip_suffix(&attributes[index].name, suffixes[0]).filter(|base| !base.is_empty());
             let columns = base.and_then(|base| find(attributes, &suffixes.map(|suffix| format!("{base}{suffix}"))));
-            match (base.map(|base| base.trim_end_matches(['_', '.', ':']).to_owned()), columns) {
-                (Some(name), Some(columns)) => {
-                    let name = if name.eq_ignore_ascii_case("n") { "normal".into() } else { name };
-                    join(attributes, name, &columns);
-                }
+            match (base.map(vector_of_base), columns) {
+                (Some(name), Some(columns)) => join(attributes, name, &columns),
                 _ => index += 1,
             }
         }
     }
+}
+
+/// The vector whose components have these names, as [`join_components`] would join them.
+pub(crate) fn vector_of(names: [&str; 3]) -> Option<String> {
+    let suffixes = SUFFIXES.iter().find(|suffixes| {
+        let bases = [0, 1, 2].map(|k| strip_suffix(names[k], suffixes[k]));
+        let is_first = |base: &Option<&str>| base.zip(bases[0]).is_some_and(|(a, b)| a.eq_ignore_ascii_case(b));
+        bases[0].is_some_and(|base| !base.is_empty()) && bases.iter().all(is_first)
+    })?;
+    strip_suffix(names[0], suffixes[0]).map(vector_of_base)
+}
+
+/// What a vector is called whose components begin like this.
+fn vector_of_base(base: &str) -> String {
+    let name = base.trim_end_matches(['_', '.', ':']);
+    if name.eq_ignore_ascii_case("n") { "normal".into() } else { name.into() }
 }
 
 fn strip_suffix<'a>(name: &'a str, suffix: &str) -> Option<&'a str> {
@@ -138,7 +151,11 @@ pub(crate) fn interleave(columns: &[Values]) -> Values {
     macro_rules! typed {
         ($kind:path) => {{
             let arrays: Vec<_> = columns.iter().filter_map(|c| if let $kind(a) = c { Some(a) } else { None }).collect();
-            $kind((0..len).flat_map(|row| arrays.iter().map(move |array| array[row])).collect())
+            $kind(match arrays[..] {
+                // By far the most frequent: by itself four times as fast.
+                [x, y, z] => zip(x, y, z).into_flattened(),
+                _ => (0..len).flat_map(|row| arrays.iter().map(move |array| array[row])).collect(),
+            })
         }};
     }
     match &columns[0] {

@@ -4,8 +4,8 @@
 use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
 use crate::names;
-use crate::raw::Raw;
-use crate::values::{Encoding, Scalar, Slot};
+use crate::raw::{Positions, Raw};
+use crate::values::{Encoding, Scalar, Slot, triples};
 use crate::{Attribute, Values};
 
 pub(crate) const MAGIC: &[u8] = b"ply";
@@ -155,52 +155,88 @@ fn read_vertices(input: &mut Input, encoding: Encoding, vertex: Element) -> Resu
         Encoding::Ascii => input.claim_words(count.saturating_mul(properties.len() as u64))?.min(count as usize),
         _ => input.claim(count, properties.iter().map(|p| p.list.unwrap_or(p.scalar).size()).sum())?,
     };
-    let mut arrays: Vec<Values> = properties.iter().filter(is_scalar).map(|p| p.scalar.array(capacity)).collect();
-    if encoding != Encoding::Ascii && properties.iter().all(|property| property.list.is_none()) {
-        read_records(input, encoding, count, &properties, &mut arrays)?;
+    let is_packed = encoding != Encoding::Ascii && properties.iter().all(|property| property.list.is_none());
+    let (positions, mut attributes) = if is_packed {
+        read_records(input, encoding, count, capacity, properties)?
     } else {
-        for _ in 0..count {
-            let mut scalars = arrays.iter_mut();
-            for property in &properties {
-                match property.list {
-                    Some(length) => skip_list(input, encoding, length, property.scalar)?,
-                    None => {
-                        let array = scalars.next().expect("one array for each scalar");
-                        read_scalar(input, encoding, property.scalar, array)?;
-                    }
-                }
-            }
-        }
-    }
-
-    let names = properties.into_iter().filter(|property| property.list.is_none()).map(|property| property.name);
-    let mut attributes: Vec<Attribute> =
-        names.zip(arrays).map(|(name, values)| Attribute { name, components: 1, values }).collect();
-    let Some(positions) = names::take_positions(&mut attributes) else {
+        (None, read_values(input, encoding, count, capacity, properties)?)
+    };
+    let Some(positions) = positions.or_else(|| names::take_positions(&mut attributes)) else {
         return broken!("its element \"vertex\" has no x, y and z");
     };
     names::join_components(&mut attributes);
     Ok(Raw { attributes, ..Raw::new(positions) })
 }
 
+/// The scalar properties, one value after the other.
+fn read_values(
+    input: &mut Input,
+    encoding: Encoding,
+    count: u64,
+    capacity: usize,
+    properties: Vec<Property>,
+) -> Result<Vec<Attribute>, Fault> {
+    let scalars = properties.iter().filter(|property| property.list.is_none());
+    let mut arrays: Vec<Values> = scalars.map(|property| property.scalar.array(capacity)).collect();
+    for _ in 0..count {
+        let mut scalars = arrays.iter_mut();
+        for property in &properties {
+            match property.list {
+                Some(length) => skip_list(input, encoding, length, property.scalar)?,
+                None => {
+                    let array = scalars.next().expect("one array for each scalar");
+                    read_scalar(input, encoding, property.scalar, array)?;
+                }
+            }
+        }
+    }
+    let names = properties.into_iter().filter(|property| property.list.is_none()).map(|property| property.name);
+    Ok(names.zip(arrays).map(|(name, values)| Attribute { name, components: 1, values }).collect())
+}
+
+/// The properties of records of one size. Vectors whose components follow each other, as they do in most files, are taken whole;
+/// so are positions then.
 fn read_records(
     input: &mut Input,
     encoding: Encoding,
     count: u64,
-    properties: &[Property],
-    arrays: &mut [Values],
-) -> Result<(), Fault> {
+    capacity: usize,
+    properties: Vec<Property>,
+) -> Result<(Option<Positions>, Vec<Attribute>), Fault> {
     let mut size = 0;
-    let mut slots = Vec::new();
-    for property in properties {
-        slots.push(Slot { scalar: property.scalar, components: 1, offset: size });
-        size += property.scalar.size();
+    let mut positions_at = None;
+    let mut columns: Vec<(String, Slot)> = Vec::new();
+    let mut rest = &properties[..];
+    while let [first, ..] = rest {
+        let three = rest.first_chunk::<3>().filter(|three| three.iter().all(|other| other.scalar == first.scalar));
+        let names = three.map(|three| three.each_ref().map(|property| property.name.as_str()));
+        let vector = names.and_then(names::vector_of);
+        let is_position = names == Some(["x", "y", "z"]) && first.scalar == Scalar::F32 && positions_at.is_none();
+        let components = if is_position || vector.is_some() { 3 } else { 1 };
+        if is_position {
+            positions_at = Some(size);
+        } else {
+            let name = vector.unwrap_or_else(|| first.name.clone());
+            columns.push((name, Slot { scalar: first.scalar, components, offset: size }));
+        }
+        size += components * first.scalar.size();
+        rest = &rest[components..];
     }
+    let mut positions = Vec::with_capacity(positions_at.map_or(0, |_| capacity));
+    let mut arrays: Vec<Values> =
+        columns.iter().map(|(_, slot)| slot.scalar.array(slot.components * capacity)).collect();
     input.blocks(count, size, |block| {
-        for (array, slot) in arrays.iter_mut().zip(&slots) {
+        if let Some(offset) = positions_at {
+            positions.extend(triples(block, size, offset, encoding));
+        }
+        for (array, (_, slot)) in arrays.iter_mut().zip(&columns) {
             array.extend_from_records(block, size, *slot, encoding);
         }
-    })
+    })?;
+    let attribute =
+        |((name, slot), values): ((String, Slot), _)| Attribute { name, components: slot.components, values };
+    let attributes = columns.into_iter().zip(arrays).map(attribute).collect();
+    Ok((positions_at.map(|_| Positions::F32(positions)), attributes))
 }
 
 fn read_scalar(input: &mut Input, encoding: Encoding, scalar: Scalar, array: &mut Values) -> Result<(), Fault> {

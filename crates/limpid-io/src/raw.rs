@@ -31,8 +31,9 @@ impl Raw {
     pub fn finish(self, path: &Path, format: Format) -> Result<ParticleSet, ReadError> {
         let Self { positions, mut attributes, file_radius, mut warnings } = self;
         let (origin, positions) = positions.into_f32();
-        let bad = |position: &[f32; 3]| !position.iter().all(|x| x.is_finite());
-        if let Some(first) = positions.iter().position(bad) {
+        if !all_finite(positions.as_flattened()) {
+            let bad = |position: &[f32; 3]| !all_finite(position);
+            let first = positions.iter().position(bad).unwrap_or_default();
             let count = positions[first..].iter().filter(|position| bad(position)).count();
             return Err(ReadError::NotFinite { path: path.to_owned(), count, first });
         }
@@ -83,8 +84,14 @@ impl Positions {
     }
 }
 
-fn zip<T: Copy>(x: &[T], y: &[T], z: &[T]) -> Vec<[T; 3]> {
+/// Three columns as rows.
+pub(crate) fn zip<T: Copy>(x: &[T], y: &[T], z: &[T]) -> Vec<[T; 3]> {
     x.iter().zip(y).zip(z).map(|((&x, &y), &z)| [x, y, z]).collect()
+}
+
+/// In pieces without a way out, which processors take several numbers at a time of.
+fn all_finite(numbers: &[f32]) -> bool {
+    numbers.chunks(1024).all(|piece| piece.iter().fold(true, |all, x| all & x.is_finite()))
 }
 
 fn into_f64(values: Values) -> Vec<f64> {

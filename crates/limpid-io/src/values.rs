@@ -155,9 +155,17 @@ impl Values {
                     let first = |record: &[u8]| record[slot.offset..].first_chunk().map_or(<$to>::default(), number);
                     $array.extend(records.chunks_exact(size).map(first));
                 } else {
-                    for record in records.chunks_exact(size) {
-                        let bytes = &record[slot.offset..][..slot.components * SIZE];
-                        $array.extend(bytes.as_chunks().0.iter().map(number));
+                    let known = $array.len();
+                    $array.resize(known + records.len() / size * slot.components, <$to>::default());
+                    let records = records.chunks_exact(size).map(|record| record[slot.offset..].as_chunks().0);
+                    if slot.components == 3 {
+                        for (row, numbers) in $array[known..].as_chunks_mut::<3>().0.iter_mut().zip(records) {
+                            *row = [0, 1, 2].map(|k| number(&numbers[k]));
+                        }
+                    } else {
+                        for (row, numbers) in $array[known..].chunks_exact_mut(slot.components.max(1)).zip(records) {
+                            row.iter_mut().zip(numbers).for_each(|(to, bytes)| *to = number(bytes));
+                        }
                     }
                 }
             }};
@@ -175,6 +183,20 @@ impl Values {
             (Self::F64(array), _) => extend!(array, f64, f64),
         }
     }
+}
+
+/// The f32 triple that lies `offset` bytes into each record of `size` bytes.
+pub(crate) fn triples(
+    records: &[u8],
+    size: usize,
+    offset: usize,
+    encoding: Encoding,
+) -> impl ExactSizeIterator<Item = [f32; 3]> + '_ {
+    let big = encoding == Encoding::Big;
+    records.chunks_exact(size).map(move |record| {
+        let numbers = record[offset..].as_chunks::<4>().0;
+        [0, 1, 2].map(|axis| if big { f32::from_be_bytes(numbers[axis]) } else { f32::from_le_bytes(numbers[axis]) })
+    })
 }
 
 impl Input<'_> {

@@ -3,7 +3,7 @@
 mod common;
 
 use common::data;
-use limpid_io::{Attribute, Format, ParticleSet, Values, read};
+use limpid_io::{Attribute, Bare, Format, ParticleSet, Values, read, read_bare};
 
 /// Count, bounds, attributes and radius of every particle file that an independent script found.
 #[test]
@@ -45,6 +45,33 @@ fn every_file_has_the_particles_it_should() {
         assert_eq!(set.origin, [0.0; 3], "{name}");
         assert!(set.warnings.is_empty(), "{name}");
         assert!(name.ends_with(set.format.name()), "{name}");
+    }
+}
+
+#[test]
+fn positions_are_those_that_an_independent_script_finds() {
+    let table = include_str!("fixtures/positions.csv");
+    let rows = table.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect::<Vec<_>>());
+    let rows: Vec<_> = rows.collect();
+    for row in &rows {
+        let (name, count) = (row[0], row[1].parse::<usize>().unwrap());
+        let is_bare = name.ends_with("_f32le.xyz");
+        let set = if is_bare { read_bare(&data(name), Bare::F32) } else { read(&data(name)) }.unwrap();
+        assert_eq!(set.len(), count, "{name}");
+        let numbers: Vec<f32> = row[2..].iter().map(|number| number.parse().unwrap()).collect();
+        let bounds = set.bounds().unwrap();
+        let bounds = [bounds.min, bounds.max].map(|corner| corner.map(|x| x as f32));
+        assert_eq!(bounds.as_flattened(), &numbers[..6], "{name}");
+        let sampled: Vec<[f32; 3]> = (0..10).map(|i| set.positions[i * (count - 1) / 9]).collect();
+        assert_eq!(sampled.as_flattened(), &numbers[6..], "{name}");
+    }
+    // None of them is left out.
+    for folder in ["dam_break_double", "rigid_coupling", "jet", "sphere_drop", "formats", "splashsurf"] {
+        for entry in std::fs::read_dir(data(folder)).unwrap() {
+            let file = format!("{folder}/{}", entry.unwrap().file_name().to_str().unwrap());
+            let is_other = file.ends_with("bodies.json") || file.ends_with("LICENSE");
+            assert!(is_other || rows.iter().any(|row| row[0] == file), "{file} is not in fixtures/positions.csv");
+        }
     }
 }
 
