@@ -77,19 +77,19 @@ const WAVE: &str = "dam_break_double/ParticleData_Fluid_20.bgeo";
 const STREAM: &str = "jet/ParticleData_Fluid_42.bgeo";
 const BLOCKS: &str = "dam_break_double/ParticleData_Fluid_15.bgeo";
 const WAVE_NEAR: [&str; 4] =
-    ["--size=320x240", "--camera-eye=0.75,0.75,1.6", "--camera-target=0.45,0.35,0.3", "--filter-scale=4"];
+    ["--size=480x360", "--camera-eye=1.3,0.9,1.7", "--camera-target=0.25,0.3,0", "--filter-scale=4"];
 const STREAM_NEAR: [&str; 4] =
-    ["--size=320x240", "--camera-eye=0.5,0.8,1.3", "--camera-target=0.1,0.2,0", "--filter-scale=2"];
+    ["--size=480x360", "--camera-eye=0.8,0.9,1.6", "--camera-target=0.1,0.2,0", "--filter-scale=2"];
 const CROWN: [&str; 4] = ["--size=480x360", "--camera-eye=1.6,2.0,2.4", "--camera-target=0,0.9,0", "--noise=0.04"];
 
 /// What docs/living.md shows, with the options that a picture takes beside its subject's. A frame alone foams by speed.
 const LIVING: &[(&str, &str, [&str; 4], &[&str])] = &[
     ("wave_gaussian", WAVE, WAVE_NEAR, &["--filter=gaussian"]),
     ("wave_flow", WAVE, WAVE_NEAR, &["--filter=curvature-flow"]),
-    ("wave_noise", WAVE, WAVE_NEAR, &["--filter=curvature-flow", "--noise=0.1", "--noise-wavelength=3"]),
+    ("wave_noise", WAVE, WAVE_NEAR, &["--filter=curvature-flow", "--noise=0.1", "--noise-wavelength=4"]),
     ("stream_gaussian", STREAM, STREAM_NEAR, &["--filter=gaussian"]),
     ("stream_flow", STREAM, STREAM_NEAR, &["--filter=curvature-flow"]),
-    ("stream_noise", STREAM, STREAM_NEAR, &["--filter=curvature-flow", "--noise=0.1"]),
+    ("stream_noise", STREAM, STREAM_NEAR, &["--filter=curvature-flow", "--noise=0.06"]),
     ("calm", BLOCKS, CROWN, &[]),
     ("foam", BLOCKS, CROWN, &["--foam=agitation", "--foam-speed-min=1", "--foam-speed-max=5"]),
     ("spray", BLOCKS, CROWN, &["--spray-neighbours=14"]),

@@ -634,11 +634,12 @@ impl Options {
     /// What agitates particles.
     pub fn agitation(&self) -> AgitationLimits {
         let limits = AgitationLimits::default();
-        let [low, high] = self.settings().detail.foam_speed;
+        let [low, high] = limits.first_frame;
+        let (low, high) = (self.foam_speed_min.unwrap_or(low), self.foam_speed_max.unwrap_or(high));
         AgitationLimits {
             threshold: self.agitation_threshold.unwrap_or(limits.threshold),
             cooling: self.cooling.unwrap_or(limits.cooling),
-            first_frame: [low.into(), high.max(1.001 * low).max(f32::MIN_POSITIVE).into()],
+            first_frame: [low, high.max(1.001 * low).max(f64::MIN_POSITIVE)],
         }
     }
 
