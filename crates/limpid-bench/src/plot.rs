@@ -18,6 +18,7 @@ fn color(filter: Filter) -> &'static str {
         Filter::Bilateral => "#56b4e9",
         Filter::CurvatureFlow => "#009e73",
         Filter::NarrowRange => "#d55e00",
+        _ => "#000000",
     }
 }
 

@@ -6,6 +6,7 @@ use crate::passes::module;
 use bytemuck::{Pod, Zeroable};
 
 /// How bright scene light meets a screen's limits.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneMap {
     /// Colours as they are, brighter than white clips.

@@ -49,7 +49,9 @@
 //! host's error scopes, [`wgpu::Device::on_uncaptured_error`] and [`wgpu::Device::set_device_lost_callback`].
 //!
 //! [`wgpu`] and [`glam`] are part of the interface and reexported. The version's first number that is not 0 goes up when one of theirs does,
-//! or when something here breaks; [`Error`] may get new cases at any time.
+//! or when something here breaks. [`Error`], [`Filter`], [`Shading`], [`ToneMap`], [`Coloring`], [`Look`] and the structs of buffers
+//! that are only read may get new cases and fields at any time; the structs that a host fills in are filled from a default
+//! (`Settings { filter_scale, ..Settings::default() }`) or, where there is none, as a whole: a new field there is a new version.
 
 mod agitation;
 mod backdrop;

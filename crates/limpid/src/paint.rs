@@ -15,6 +15,7 @@ pub struct Paint<'a> {
 }
 
 /// What the particles' colours do to the liquid's look.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Coloring {
     /// Nothing.

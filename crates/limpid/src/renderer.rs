@@ -611,6 +611,7 @@ impl Renderer {
 }
 
 /// The ellipsoids of some of the particles, in no particular order. Buffers may be larger.
+#[non_exhaustive]
 #[derive(Clone, Copy)]
 pub struct EllipsoidBuffers<'a> {
     /// How many.
@@ -623,6 +624,7 @@ pub struct EllipsoidBuffers<'a> {
 }
 
 /// Noise and foam of one frame ([`crate::Detail`]).
+#[non_exhaustive]
 #[derive(Clone, Copy)]
 pub struct DetailBuffer<'a> {
     /// The fluid's own pixels across and down: fewer than the picture's where [`Settings::filter_scale`] says so.
@@ -633,6 +635,7 @@ pub struct DetailBuffer<'a> {
 }
 
 /// Droplets of one frame ([`Particles::set_droplets`]).
+#[non_exhaustive]
 #[derive(Clone, Copy)]
 pub struct DropletsBuffer<'a> {
     /// The fluid's own pixels across and down, as in [`DetailBuffer::size`].
@@ -648,6 +651,7 @@ impl DropletsBuffer<'_> {
 }
 
 /// What is behind the front surface ([`Settings::layers`]).
+#[non_exhaustive]
 #[derive(Clone, Copy)]
 pub struct LayersBuffer<'a> {
     /// Texels across and down: half as many as the fluid has pixels, or as many where those are coarse already.
@@ -662,6 +666,7 @@ pub struct LayersBuffer<'a> {
 /// positive there is no fluid, and the others hold anything.
 ///
 /// Nearness is 1 / depth in perspective views and 1 - depth / far in orthographic ones ([`View::depth_of`]).
+#[non_exhaustive]
 #[derive(Clone, Copy)]
 pub struct FrameBuffers<'a> {
     /// f32 nearness after the splat.

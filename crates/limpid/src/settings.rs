@@ -100,6 +100,7 @@ impl Settings {
 }
 
 /// What of the light [`crate::FrameBuffers::shaded`] holds, premultiplied by how much of the pixel is fluid.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// The fluid as it is seen.
@@ -185,6 +186,7 @@ impl Scale {
 }
 
 /// A way of smoothing the depth image.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Filter {
     /// The splats as they are.

@@ -29,6 +29,7 @@ pub struct Body<'a> {
 }
 
 /// What a body is made of.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Look {
     /// The materials of its mesh.

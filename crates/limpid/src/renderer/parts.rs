@@ -16,6 +16,7 @@ pub(super) struct Parts {
 }
 
 /// The images of a frame that is open for particles, for reading back: [`Partial::new`] takes the words in this order.
+#[non_exhaustive]
 #[derive(Clone)]
 pub struct PartialBuffers<'a> {
     /// Each with how many u32 of it count.

@@ -31,7 +31,7 @@ fn part(cloud: &Cloud, range: Range<usize>) -> ParticleSlices<'_> {
 }
 
 fn words(gpu: &Gpu, renderer: &Renderer) -> [Vec<u8>; 4] {
-    let FrameBuffers { raw_nearness, nearness, surface, shaded } = renderer.buffers().unwrap();
+    let FrameBuffers { raw_nearness, nearness, surface, shaded, .. } = renderer.buffers().unwrap();
     let pixels = (SIZE[0] * SIZE[1]) as usize;
     [(raw_nearness, 1), (nearness, 1), (surface, 4), (shaded, 4)].map(|(buffer, per_pixel)| {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
