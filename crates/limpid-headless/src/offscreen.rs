@@ -14,7 +14,7 @@ pub struct Offscreen {
 }
 
 impl Offscreen {
-    /// Builds all pipelines.
+    /// Readies the passes.
     ///
     /// # Errors
     /// The driver refuses a pipeline.

@@ -78,7 +78,7 @@ fn attachment<'a>(view: &'a wgpu::TextureView, load: wgpu::LoadOp<wgpu::Color>) 
 }
 
 impl Painter {
-    /// Builds all pipelines.
+    /// Readies the passes.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let target = TargetFormat {
             color: linear_format(device),

@@ -179,7 +179,10 @@ pub(crate) fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 }
 
 impl Renderer {
-    /// Builds every pipeline. `target` is what [`Self::composite`] will draw into.
+    /// Readies the passes. `target` is what [`Self::composite`] will draw into.
+    ///
+    /// Most pipelines are built by the first frame that needs them: prepare one with the settings to come, into an encoder that is
+    /// then dropped, while all else is loaded, and no frame has to wait.
     pub fn new(device: &wgpu::Device, target: &TargetFormat) -> Self {
         let layout = frame_layout(device);
         Self {

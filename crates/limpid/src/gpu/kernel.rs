@@ -1,5 +1,7 @@
 //! A compute pipeline with the bind groups all kernels share: group 0 is the frame, group 1 the pass's own data.
 
+use std::sync::{Arc, OnceLock};
+
 /// What a kernel's binding is; its place in the list is its binding number in group 1.
 #[derive(Clone, Copy)]
 pub(crate) enum Slot {
@@ -50,11 +52,20 @@ pub(crate) fn bind(
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }
 
-/// A compute pipeline.
+/// A compute pipeline, built when it first runs: a frame needs about half of them, and a driver takes tens of milliseconds for
+/// each. Clones share it.
 #[derive(Clone)]
 pub(crate) struct Kernel {
-    pub(super) pipeline: wgpu::ComputePipeline,
     pub(super) layout: wgpu::BindGroupLayout,
+    source: Arc<Source>,
+}
+
+struct Source {
+    module: wgpu::ShaderModule,
+    entry_point: String,
+    constants: Vec<(String, f64)>,
+    pipeline_layout: wgpu::PipelineLayout,
+    pipeline: OnceLock<wgpu::ComputePipeline>,
 }
 
 impl Kernel {
@@ -86,14 +97,28 @@ impl Kernel {
             bind_group_layouts: &[Some(frame_layout), Some(&layout)],
             immediate_size: 0,
         });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry_point),
-            layout: Some(&pipeline_layout),
-            module,
-            entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-            cache: None,
-        });
-        Self { pipeline, layout }
+        let source = Source {
+            module: module.clone(),
+            entry_point: entry_point.to_owned(),
+            constants: constants.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
+            pipeline_layout,
+            pipeline: OnceLock::new(),
+        };
+        Self { layout, source: Arc::new(source) }
+    }
+
+    pub(super) fn pipeline(&self, device: &wgpu::Device) -> &wgpu::ComputePipeline {
+        let Source { module, entry_point, constants, pipeline_layout, pipeline } = &*self.source;
+        pipeline.get_or_init(|| {
+            let constants: Vec<_> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry_point),
+                layout: Some(pipeline_layout),
+                module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+                cache: None,
+            })
+        })
     }
 }

@@ -30,10 +30,11 @@ impl Recorder<'_> {
     /// Records one kernel as a compute pass of its own, so that it can be timed.
     pub fn run(&mut self, name: &str, kernel: &Kernel, resources: &[wgpu::BindingResource<'_>], grid: &Grid<'_>) {
         let group = bind(self.device, &kernel.layout, resources);
+        let pipeline = kernel.pipeline(self.device);
         let timestamp_writes = self.profiler.as_deref_mut().and_then(|profiler| profiler.compute(name));
         let mut pass =
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
-        pass.set_pipeline(&kernel.pipeline);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, self.frame_group, &[]);
         pass.set_bind_group(1, &group, &[]);
         match grid {
