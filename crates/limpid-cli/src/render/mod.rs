@@ -1,5 +1,6 @@
 //! `limpid render`: from particle files to pictures.
 
+mod ahead;
 mod outputs;
 mod partial;
 mod progress;
@@ -10,7 +11,6 @@ use crate::write::{write_aov, write_layers, write_picture};
 use crate::{console, environment};
 use clap::Args;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
-use limpid_io::{Frame, ParticleSet};
 use limpid_shot::{Diffuse, FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
@@ -44,7 +44,7 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         return console::print(&config::print(&options)?);
     }
     let quiet = options.quiet();
-    let inputs = Inputs::of(&options)?;
+    let inputs = Arc::new(Inputs::of(&options)?);
     let sequence = &inputs.sequence;
     if (arguments.part.is_some() || !arguments.partials.is_empty()) && sequence.frames.len() != 1 {
         let frames = sequence.frames.len();
@@ -64,10 +64,12 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         offscreen.set_environment(Some(&map)).map_err(bad)?;
     }
 
-    let read = |frame: &Frame| Ok(Arc::new(inputs.read(frame)?));
-    let mut survey = survey(&sequence.frames, &options, read)?;
+    let mut survey = survey(&inputs, &options)?;
     // A single frame is not read twice.
-    let mut single = survey.take_largest().filter(|_| sequence.frames.len() == 1);
+    let sets: Box<dyn Iterator<Item = _>> = match survey.take_largest().filter(|_| sequence.frames.len() == 1) {
+        Some(single) => Box::new(std::iter::once(Ok(single))),
+        None => Box::new(ahead::frames(&inputs)),
+    };
     let stage = Stage::of(&options, &survey, &props)?;
     let paints = Paints::of(&options, &survey)?;
     let legend = Legend::of(&options, &paints.tint);
@@ -75,12 +77,8 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let mut living = Living::new(&options);
     let mut diffuse = Diffuse::find(&options, &sequence.frames, survey.radius_world())?;
     let progress = Progress::new("rendering", sequence.frames.len(), quiet);
-    for (index, (frame, files)) in sequence.frames.iter().zip(&outputs.frames).enumerate() {
-        let set = match single.take() {
-            Some(set) => set,
-            None => read(frame)?,
-        };
-        let mut particles = FrameParticles::of(set, &survey, &paints)?;
+    for (index, ((frame, files), set)) in sequence.frames.iter().zip(&outputs.frames).zip(sets).enumerate() {
+        let mut particles = FrameParticles::of(set?, &survey, &paints)?;
         let remarks = living.advance(frame, &mut particles);
         let droplets = diffuse.advance(frame, index, &mut particles)?;
         let bodies = props.at(frame, &meshes);
@@ -125,15 +123,11 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
 }
 
 /// Looks through all frames.
-fn survey(
-    frames: &[Frame],
-    options: &Options,
-    read: impl Fn(&Frame) -> Result<Arc<ParticleSet>, Failure>,
-) -> Result<Survey, Failure> {
+fn survey(inputs: &Arc<Inputs>, options: &Options) -> Result<Survey, Failure> {
     let mut survey = Survey::default();
-    let progress = Progress::new("looking through", frames.len(), options.quiet());
-    for frame in frames {
-        survey.include(&read(frame)?, options);
+    let progress = Progress::new("looking through", inputs.sequence.frames.len(), options.quiet());
+    for set in ahead::frames(inputs) {
+        survey.include(&set?, options);
         progress.advance();
     }
     progress.finish();
