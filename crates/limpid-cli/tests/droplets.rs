@@ -4,8 +4,19 @@ mod common;
 
 use common::Folder;
 
-const CAMERA: [&str; 8] =
-    ["--camera-eye", "1.5,1.5,30", "--camera-target", "1.5,1.5,0", "--ortho", "8", "--radius", "0.5"];
+/// Droplets that many pixels show.
+const OPTIONS: [&str; 10] = [
+    "--camera-eye",
+    "1.5,1.5,30",
+    "--camera-target",
+    "1.5,1.5,0",
+    "--ortho",
+    "8",
+    "--radius",
+    "0.5",
+    "--droplet-radius",
+    "0.5",
+];
 
 /// A cube of fluid in frames 1 and 2, and a particle far from it.
 fn folder() -> Folder {
@@ -29,7 +40,7 @@ fn filled(folder: &Folder, name: &str) -> [usize; 2] {
 
 fn rendered(folder: &Folder, options: &[&str]) -> String {
     let output = ["-o", "a.png", "--size", "160x80", "--aov", "spray=s.npy", "--aov", "depth=d.npy"];
-    let result = folder.limpid(&[&["render"], options, &output, &CAMERA].concat());
+    let result = folder.limpid(&[&["render"], options, &output, &OPTIONS].concat());
     let said = String::from_utf8(result.stderr).unwrap();
     assert!(result.status.success(), "{said}");
     said
