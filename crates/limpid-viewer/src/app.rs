@@ -4,6 +4,7 @@ use crate::book::Book;
 use crate::controls::Controls;
 use crate::desk::{Command, Desk};
 use crate::frames::{self, Frames, Source};
+use crate::pace::{Grade, Instant, Pace};
 use crate::picture::{Picture, Wanted};
 use crate::times::Times;
 use crate::{camera, link, save};
@@ -49,8 +50,9 @@ pub struct Viewer {
     plays: bool,
     loops: bool,
     speed: f64,
-    /// Frames played since the one shown.
+    /// Frames played since the one shown, as of when.
     clock: f64,
+    ticked: Option<Instant>,
     picture: Picture,
     compared: Option<Compared>,
     stand: Stand,
@@ -58,6 +60,7 @@ pub struct Viewer {
     size: [u32; 2],
     pose: Option<Pose>,
     drawn: Option<Drawn>,
+    pace: Pace,
     wants_picture: bool,
     shows_panel: Option<bool>,
     times: Times,
@@ -98,6 +101,7 @@ struct Drawn {
     generation: u64,
     index: usize,
     version: u64,
+    grade: Grade,
 }
 
 impl Viewer {
@@ -128,12 +132,14 @@ impl Viewer {
             loops: start.screenshot.is_none(),
             speed: 1.0,
             clock: 0.0,
+            ticked: None,
             compared: None,
             stand: Stand::default(),
             fills_window: !start.has_size,
             size,
             pose: None,
             drawn: None,
+            pace: Pace::default(),
             wants_picture: false,
             shows_panel: None,
             times: Times::default(),
@@ -300,8 +306,10 @@ impl Viewer {
         frames.advance(self.index);
         let problems = std::mem::take(&mut frames.problems);
         let can_play = self.plays && frames.len() > 1;
+        let ticked = std::mem::replace(&mut self.ticked, can_play.then(Instant::now));
         if can_play {
-            let seconds = f64::from(ctx.input(|input| input.stable_dt)).min(0.25);
+            // Not after a pause of the whole window.
+            let seconds = ticked.map_or(0.0, |ticked| ticked.elapsed().as_secs_f64().min(1.0));
             self.clock += seconds * self.book.options().fps() * self.speed;
             // A film that is waited for shows every frame.
             let due = if self.screenshot.is_some() { self.clock.floor().min(1.0) } else { self.clock.floor() };
@@ -316,9 +324,41 @@ impl Viewer {
                 self.clock = due;
                 frames.advance(next);
             }
-            ctx.request_repaint();
+            // A picture on its way wakes the window when it is done: every repaint costs it time.
+            if !self.pace.is_drawing(&self.gpu.device) {
+                ctx.request_repaint();
+            }
         }
         problems.into_iter().for_each(|problem| self.complain(problem));
+    }
+
+    /// How finely to draw what is wanted now; None: not yet, or not again.
+    fn grade(&mut self, ctx: &egui::Context, wanted: &Drawn, asks_again: bool) -> Option<Grade> {
+        let shown = self.drawn.as_ref().filter(|drawn| Drawn { grade: drawn.grade, ..wanted.clone() } == **drawn);
+        let shown = shown.map(|drawn| drawn.grade);
+        if shown.is_none() {
+            self.pace.change();
+        }
+        if self.pace.is_drawing(&self.gpu.device) {
+            // Native devices must be asked.
+            #[cfg(not(target_arch = "wasm32"))]
+            ctx.request_repaint_after(std::time::Duration::from_millis(4));
+            return None;
+        }
+        let moving = if wanted.options.show.is_some() { Grade::Whole } else { self.pace.moving() };
+        let rests_in = self.pace.rests_in();
+        let is_held = self.plays || ctx.egui_is_using_pointer();
+        match shown {
+            _ if self.wants_picture => Some(Grade::Whole),
+            None => Some(moving),
+            Some(Grade::Whole) => asks_again.then_some(Grade::Whole),
+            Some(grade) if is_held => asks_again.then_some(grade),
+            Some(_) if !rests_in.is_zero() => {
+                ctx.request_repaint_after(rests_in);
+                None
+            }
+            Some(_) => Some(Grade::Whole),
+        }
     }
 
     /// The options of the picture to be drawn.
@@ -363,15 +403,21 @@ impl Viewer {
     }
 
     /// Draws what has changed.
-    fn draw(&mut self) {
+    fn draw(&mut self, ctx: &egui::Context) {
         self.furnish();
         let options = self.shot_options();
-        let Some(frames) = &mut self.frames else { return };
+        let Some(frames) = &self.frames else { return };
         let (Some(set), Some(frame)) = (frames.ready(self.index).cloned(), frames.frame(self.index).cloned()) else {
             return;
         };
-        let wanted = Drawn { options, generation: self.generation, index: self.index, version: frames.version };
+        let (generation, index, version) = (self.generation, self.index, frames.version);
+        let wanted = Drawn { options, generation, index, version, grade: Grade::Whole };
         let asks_again = self.wants_picture || self.shows_times && (self.plays || self.times.is_empty());
+        let Some(grade) = self.grade(ctx, &wanted, asks_again) else { return };
+        let wanted = Drawn { grade, ..wanted };
+        let Some(frames) = &mut self.frames else { return };
+        let begun = Instant::now();
+        let mut has_drawn = false;
         let mut problems = Vec::new();
         let draw = |picture: &mut Picture, options: &Options, is_main: bool, survey: &mut limpid_shot::Survey| {
             survey.settle(options).map_err(|error| error.to_string())?;
@@ -387,6 +433,7 @@ impl Viewer {
                     survey,
                     props: &self.stand.props,
                     meshes: &self.stand.meshes,
+                    grade,
                     is_timed: is_main && self.shows_times,
                     is_grabbed: is_main && self.wants_picture,
                 },
@@ -407,12 +454,14 @@ impl Viewer {
             let wanted = Drawn { options, ..wanted.clone() };
             if compared.drawn.as_ref() != Some(&wanted) {
                 problems.extend(draw(&mut compared.picture, &wanted.options, false, frames.survey()).err());
+                has_drawn = true;
                 compared.drawn = Some(wanted);
             }
         }
         if self.drawn.as_ref() != Some(&wanted) || asks_again {
             match draw(&mut self.picture, &wanted.options, true, frames.survey()) {
                 Ok(pose) => {
+                    has_drawn = true;
                     self.pose = Some(pose);
                     self.times.count();
                     self.desk.status().drawn += 1;
@@ -425,6 +474,9 @@ impl Viewer {
             self.drawn = Some(wanted);
         }
         problems.append(&mut self.picture.remarks);
+        if has_drawn {
+            self.pace.begin(grade, begun, &self.gpu.queue, ctx);
+        }
         problems.into_iter().for_each(|problem| self.complain(problem));
     }
 
@@ -487,11 +539,15 @@ impl Viewer {
 
     fn report(&mut self) {
         let options = self.shot_options();
+        let is_drawing = self.pace.is_drawing(&self.gpu.device);
         let frames = self.frames.as_ref();
         let is_settled = frames.is_some_and(|frames| frames.surveyed() == frames.len() && !frames.is_reading())
             && !self.picture.is_receiving()
             && !self.wants_picture
-            && self.drawn.as_ref().is_some_and(|drawn| drawn.options == options && drawn.index == self.index);
+            && !is_drawing
+            && self.drawn.as_ref().is_some_and(|drawn| {
+                drawn.options == options && drawn.index == self.index && drawn.grade == Grade::Whole
+            });
         let particles = frames.and_then(|frames| frames.ready(self.index)).map_or(0, |set| set.len());
         let mut status = self.desk.status();
         status.is_settled = is_settled;
@@ -681,7 +737,7 @@ impl Viewer {
             self.size = self.book.options().size();
         }
         self.move_camera(ui, &response);
-        self.draw();
+        self.draw(ui.ctx());
         self.receive_pictures(ui.ctx());
         let rect = fitted(room, self.size);
         let shows_buffer = self.book.options().show.is_some();

@@ -10,6 +10,7 @@ mod controls;
 mod desk;
 mod frames;
 mod link;
+mod pace;
 mod picture;
 mod save;
 mod times;

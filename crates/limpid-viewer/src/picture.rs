@@ -1,5 +1,6 @@
 //! Drawing a shot into a texture of the window's.
 
+use crate::pace::Grade;
 use eframe::egui::{self, TextureId};
 use eframe::egui_wgpu::{RenderState, wgpu};
 use limpid::{Body, Particles, PassTime, Profiler};
@@ -13,6 +14,8 @@ pub struct Picture {
     painter: Painter,
     texture: Option<TextureId>,
     drawn_size: [u32; 2],
+    /// What was asked for; `drawn_size` may be less.
+    whole_size: [u32; 2],
     loaded: Option<Loaded>,
     living: Option<(Options, Living)>,
     diffuse: Option<(DropletKey, Diffuse)>,
@@ -81,6 +84,8 @@ pub struct Wanted<'a> {
     pub props: &'a Props,
     /// The same on the device.
     pub meshes: &'a [limpid::Mesh],
+    /// How finely to draw.
+    pub grade: Grade,
     /// Whether to time the passes.
     pub is_timed: bool,
     /// Whether to bring the picture back.
@@ -94,6 +99,7 @@ impl Picture {
             painter: Painter::new(&gpu.device, &gpu.queue),
             texture: None,
             drawn_size: [0; 2],
+            whole_size: [0; 2],
             loaded: None,
             living: None,
             diffuse: None,
@@ -171,7 +177,8 @@ impl Picture {
             self.loaded = Some(Loaded { key, frame, particles });
         }
         let Some(loaded) = &self.loaded else { return Ok(stage.pose()) };
-        let shot = shown_shot(&stage, options, &loaded.frame, &bodies);
+        let shot = wanted.grade.of(shown_shot(&stage, options, &loaded.frame, &bodies));
+        self.whole_size = options.size();
         if wanted.is_timed && self.profiler.is_none() {
             self.painter.renderer_mut().set_profiler(Profiler::new(&gpu.device, &gpu.queue));
         }
@@ -295,7 +302,7 @@ impl Picture {
     /// What to put over the picture in the window.
     pub fn legend(&mut self, ctx: &egui::Context) -> Option<TextureId> {
         let legend = self.legend.as_ref()?;
-        let size = self.drawn_size;
+        let size = self.whole_size;
         let known = self.legend_texture.take().filter(|(known, of, _)| known == legend && *of == size);
         let (.., texture) = self.legend_texture.insert(known.unwrap_or_else(|| {
             let mut rgba = vec![0; 4 * size[0] as usize * size[1] as usize];

@@ -1,12 +1,9 @@
 //! How long pictures and their passes take, as a live graph.
 
+use crate::pace::Instant;
 use eframe::egui::{self, RichText, Ui, pos2, vec2};
 use limpid::PassTime;
 use std::collections::VecDeque;
-#[cfg(not(target_arch = "wasm32"))]
-use std::time::Instant;
-#[cfg(target_arch = "wasm32")]
-use web_time::Instant;
 
 /// Pictures in the graph.
 const HISTORY: usize = 120;

@@ -27,7 +27,8 @@ pub struct BackdropFrame<'a> {
 /// Draws an [`Environment`] where a host has no scene of its own. Writes reversed depth: build the view with
 /// [`View::perspective`] or [`View::orthographic`] and compare with `Greater`.
 pub struct Backdrop {
-    pipeline: wgpu::RenderPipeline,
+    /// For plain environments and elaborate ones.
+    pipelines: [wgpu::RenderPipeline; 2],
     frame_group: wgpu::BindGroup,
     layout: wgpu::BindGroupLayout,
     no_shadow: wgpu::Buffer,
@@ -60,7 +61,10 @@ impl Backdrop {
         let settings = uniform_buffer::<SettingsUniform>(device, "no settings");
         let environment = uniform_buffer::<EnvironmentUniform>(device, "backdrop environment");
         Self {
-            pipeline: target.fullscreen_pipeline(device, &module, "backdrop", &[Some(&frame), Some(&layout)], None),
+            pipelines: [0.0, 1.0].map(|is_elaborate| {
+                let shader = (&module, "backdrop", &[("ELABORATE", is_elaborate)][..]);
+                target.fullscreen_pipeline_with(device, shader, &[Some(&frame), Some(&layout)], None)
+            }),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             no_map: Nothing::new(device).color,
             no_shadow: storage_buffer(device, "no shadow", 4),
@@ -88,7 +92,7 @@ impl Backdrop {
             wgpu::BindingResource::TextureView(map.map_or(&self.no_map, |map| &map.view)),
         ];
         let group = bind(device, &self.layout, &resources);
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.pipelines[usize::from(uniform.is_elaborate())]);
         pass.set_bind_group(0, &self.frame_group, &[]);
         pass.set_bind_group(1, &group, &[]);
         pass.draw(0..3, 0..1);

@@ -71,7 +71,7 @@ impl Budget {
 
     /// What to draw the next frame with: `wanted`, or as much of it as fits.
     pub fn settings(&mut self, wanted: &Settings) -> Settings {
-        let steps = ladder(wanted);
+        let steps = wanted.steps_down();
         self.steps = steps.len() - 1;
         self.step = self.step.min(self.steps);
         steps[self.step]
@@ -120,26 +120,30 @@ impl Budget {
     }
 }
 
-/// The wanted settings and coarser ones, each cheaper than the one before.
-fn ladder(wanted: &Settings) -> Vec<Settings> {
-    let coarser = |scale: Scale, least: Scale| if scale.divisor() > least.divisor() { scale } else { least };
-    let without_layers = Settings { layers: false, ..*wanted };
-    let thin = Settings { thickness_scale: coarser(wanted.thickness_scale, Scale::Quarter), ..without_layers };
-    let half = Settings { filter_scale: coarser(wanted.filter_scale, Scale::Half), ..thin };
-    let spheres = if wanted.anisotropy.enabled {
-        let strength = (wanted.smoothing.strength / Smoothing::ELLIPSOIDS_SHARE).min(20.0);
-        Settings {
-            anisotropy: Anisotropy { enabled: false, ..wanted.anisotropy },
-            smoothing: Smoothing { strength, ..wanted.smoothing },
-            ..half
-        }
-    } else {
-        half
-    };
-    let quarter = Settings { filter_scale: Scale::Quarter, ..spheres };
-    let mut steps = vec![*wanted, without_layers, thin, half, spheres, quarter];
-    steps.dedup();
-    steps
+impl Settings {
+    /// These settings and coarser ones, each cheaper than the one before: no layers, thickness at a quarter, the fluid at half
+    /// resolution, spheres, the fluid at a quarter. Steps that these settings have taken already are left out.
+    pub fn steps_down(&self) -> Vec<Self> {
+        let wanted = self;
+        let coarser = |scale: Scale, least: Scale| if scale.divisor() > least.divisor() { scale } else { least };
+        let without_layers = Settings { layers: false, ..*wanted };
+        let thin = Settings { thickness_scale: coarser(wanted.thickness_scale, Scale::Quarter), ..without_layers };
+        let half = Settings { filter_scale: coarser(wanted.filter_scale, Scale::Half), ..thin };
+        let spheres = if wanted.anisotropy.enabled {
+            let strength = (wanted.smoothing.strength / Smoothing::ELLIPSOIDS_SHARE).min(20.0);
+            Settings {
+                anisotropy: Anisotropy { enabled: false, ..wanted.anisotropy },
+                smoothing: Smoothing { strength, ..wanted.smoothing },
+                ..half
+            }
+        } else {
+            half
+        };
+        let quarter = Settings { filter_scale: Scale::Quarter, ..spheres };
+        let mut steps = vec![*wanted, without_layers, thin, half, spheres, quarter];
+        steps.dedup();
+        steps
+    }
 }
 
 fn median(values: &[f64]) -> f64 {
@@ -211,11 +215,11 @@ mod tests {
     #[test]
     fn steps_only_leave_out() {
         let wanted = Settings { filter_scale: Scale::Quarter, ..Settings::spheres() };
-        let steps = ladder(&wanted);
+        let steps = wanted.steps_down();
         assert_eq!(steps[0], wanted);
         assert_eq!(steps.len(), 2);
         assert_eq!(steps[1], Settings { thickness_scale: Scale::Quarter, ..wanted });
-        for settings in ladder(&Settings::default()) {
+        for settings in Settings::default().steps_down() {
             settings.check().unwrap();
         }
         // The step that is taken is there whatever else is wanted.

@@ -193,6 +193,13 @@ pub(crate) struct EnvironmentUniform {
     pub lights: [LightUniform; MOST_LIGHTS],
 }
 
+impl EnvironmentUniform {
+    /// Whether there is more than sky, sun and the fluid's own shadow: `environment.wgsl`'s `ELABORATE`.
+    pub fn is_elaborate(&self) -> bool {
+        self.map_levels > 0 || self.light_count > 1 || self.scene_texels > 0 || self.caustic_texels > 0
+    }
+}
+
 /// `environment.wgsl`'s `Light`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

@@ -3,6 +3,10 @@
 // Whoever includes this binds `environment`, `shadow`, what the sun sees of fluid and scene (shadow.rs), and
 // `environment_map`, a stand-in where there is none.
 
+// Whether there is more than sky, sun and the fluid's own shadow: a map, lamps, the scene's shadow or caustics. CPU drivers run
+// both sides of a branch, so that what is not there is left out of the kernel.
+override ELABORATE: bool = true;
+
 struct Environment {
     up: vec3f,
     eye_height: f32, // above the floor, world units; far below it where there is no floor
@@ -78,8 +82,10 @@ fn map_light(direction: vec3f, alpha: f32) -> vec3f {
 
 // Light from above the floor; `alpha` is how far it is blurred.
 fn sky(direction: vec3f, alpha: f32) -> vec3f {
-    if environment.map_levels > 0u {
-        return map_light(direction, alpha);
+    if ELABORATE {
+        if environment.map_levels > 0u {
+            return map_light(direction, alpha);
+        }
     }
     return procedural_sky(direction);
 }
@@ -94,7 +100,11 @@ fn procedural_sky(direction: vec3f) -> vec3f {
     let cloud = 0.5 + 0.5 * sin(bent.x) * sin(bent.y);
     color = mix(color, vec3f(1.05), smoothstep(0.45, 1.0, cloud) * smoothstep(0.05, 0.35, height) * 0.8);
     let toward_sun = max(dot(direction, environment.sun), 0.0);
-    return color + SUN_LIGHT * (environment.sun_strength * (0.25 * pow(toward_sun, 8.0) + 0.6 * pow(toward_sun, 96.0)));
+    let second = toward_sun * toward_sun;
+    let eighth = second * second * second * second;
+    let low = eighth * eighth * eighth * eighth;
+    let glow = 0.25 * eighth + 0.6 * low * low * low;
+    return color + SUN_LIGHT * (environment.sun_strength * glow);
 }
 
 // Light that falls on a white surface of this normal, over pi: what comes from all around, and the sun. Liquid is lit some
@@ -103,7 +113,15 @@ fn light_on(normal: vec3f, sunlight: vec3f) -> vec3f {
     let upward = 0.5 + 0.5 * dot(normal, environment.up);
     let around = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.50, 0.57, 0.66), upward);
     let sun = SUN_LIGHT * sunlight * (environment.sun_strength * light_into(normal, environment.sun));
-    return select(around, map_light(normal, 1.0), environment.map_levels > 0u) + sun;
+    return map_or(around, normal) + sun;
+}
+
+// The map's light on a surface of a normal; `around` where there is no map.
+fn map_or(around: vec3f, normal: vec3f) -> vec3f {
+    if ELABORATE {
+        return select(around, map_light(normal, 1.0), environment.map_levels > 0u);
+    }
+    return around;
 }
 
 // How much of a light enters liquid of a normal: some way round its edge.
@@ -243,17 +261,21 @@ fn caustic_share(place: LightPlace) -> vec3f {
 
 // Share that the scene leaves free.
 fn scene_share(place: LightPlace) -> f32 {
-    if environment.scene_texels == 0u {
-        return 1.0;
+    if ELABORATE {
+        if environment.scene_texels > 0u {
+            return disc_seen(place);
+        }
     }
-    return disc_seen(place);
+    return 1.0;
 }
 
 // Share of the sun's light that reaches a place of the scene, given relative to the centre.
 fn sunlight(at: vec3f) -> vec3f {
     let place = light_place(environment.lights[0], at);
-    if environment.caustic_texels > 0u {
-        return caustic_share(place) * scene_share(place);
+    if ELABORATE {
+        if environment.caustic_texels > 0u {
+            return caustic_share(place) * scene_share(place);
+        }
     }
     return liquid_share(place) * scene_share(place);
 }
@@ -268,6 +290,9 @@ fn lamplight(lamp: u32, at: vec3f) -> vec3f {
 // What the lamps shed on a surface of the scene, as the sun sheds its light on a white one. Lamps are lights 1 and on.
 fn lamps_on(normal: vec3f, at: vec3f) -> vec3f {
     var light = vec3f(0.0);
+    if !ELABORATE {
+        return light;
+    }
     for (var lamp = 1u; lamp < environment.light_count; lamp++) {
         light += 0.55 * max(dot(normal, environment.lights[lamp].toward), 0.0) * lamplight(lamp, at);
     }
@@ -308,7 +333,7 @@ fn surroundings(from_eye: vec3f, direction: vec3f, spread: f32) -> vec3f {
     let tiles = vec2f(dot(at, environment.east), dot(at, north)) / environment.tile;
     let width = spread * distance / environment.tile;
     let stone = mix(vec3f(0.40, 0.39, 0.38), vec3f(0.52, 0.51, 0.495), checker(tiles, vec2f(width, width / descent)));
-    let around = select(vec3f(0.45), map_light(environment.up, 1.0), environment.map_levels > 0u);
+    let around = map_or(vec3f(0.45), environment.up);
     let light = around + 0.55 * environment.sun_strength * sunlight(at) + lamps_on(environment.up, at);
     return mix(behind, stone * light, exp(-environment.tile_fade * dot(tiles, tiles)));
 }

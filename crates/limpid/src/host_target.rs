@@ -20,9 +20,20 @@ impl TargetFormat {
         layouts: &[Option<&wgpu::BindGroupLayout>],
         blend: Option<wgpu::BlendState>,
     ) -> wgpu::RenderPipeline {
+        self.fullscreen_pipeline_with(device, (module, fragment, &[]), layouts, blend)
+    }
+
+    /// The same with the fragment shader's overrides set.
+    pub(crate) fn fullscreen_pipeline_with(
+        &self,
+        device: &wgpu::Device,
+        shader: (&wgpu::ShaderModule, &str, &[(&str, f64)]),
+        layouts: &[Option<&wgpu::BindGroupLayout>],
+        blend: Option<wgpu::BlendState>,
+    ) -> wgpu::RenderPipeline {
         let color = wgpu::ColorTargetState { format: self.color, blend, write_mask: wgpu::ColorWrites::ALL };
         let targets = [Some(color)];
-        pipeline(device, module, fragment, layouts, &targets, (self.depth.map(tested_and_written), self.samples))
+        pipeline(device, shader, layouts, &targets, (self.depth.map(tested_and_written), self.samples))
     }
 
     /// One that covers what is there whatever its depth, and leaves the depth alone.
@@ -39,7 +50,8 @@ impl TargetFormat {
             depth_write_enabled: Some(false),
             ..tested_and_written((format, wgpu::CompareFunction::Always))
         };
-        pipeline(device, module, fragment, layouts, &[Some(color)], (self.depth.map(untouched), self.samples))
+        let state = (self.depth.map(untouched), self.samples);
+        pipeline(device, (module, fragment, &[]), layouts, &[Some(color)], state)
     }
 }
 
@@ -52,7 +64,7 @@ pub(crate) fn depth_pipeline(
     format: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
     let depth = tested_and_written((format, wgpu::CompareFunction::Always));
-    pipeline(device, module, fragment, layouts, &[], (Some(depth), 1))
+    pipeline(device, (module, fragment, &[]), layouts, &[], (Some(depth), 1))
 }
 
 fn tested_and_written((format, compare): (wgpu::TextureFormat, wgpu::CompareFunction)) -> wgpu::DepthStencilState {
@@ -67,8 +79,7 @@ fn tested_and_written((format, compare): (wgpu::TextureFormat, wgpu::CompareFunc
 
 fn pipeline(
     device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    fragment: &str,
+    (module, fragment, constants): (&wgpu::ShaderModule, &str, &[(&str, f64)]),
     layouts: &[Option<&wgpu::BindGroupLayout>],
     targets: &[Option<wgpu::ColorTargetState>],
     (depth, samples): (Option<wgpu::DepthStencilState>, u32),
@@ -93,7 +104,7 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
             targets,
         }),
         multiview_mask: None,

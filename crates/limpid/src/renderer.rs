@@ -503,7 +503,7 @@ impl Renderer {
         });
         let foam = (settings.detail.foam != Foam::Off).then(|| self.detail.uniform());
         let with = With { layers: None, droplets: droplets.as_ref(), foam };
-        self.shade.reserve(device, &self.frame_layout, &with);
+        self.shade.reserve(device, &self.frame_layout, &with, settings.layers);
         let layers = self.layers.as_ref().filter(|_| settings.layers).and_then(|layers| {
             let passes = FluidPasses {
                 tiles: &self.tiles,

@@ -6,6 +6,9 @@
 //
 // Whoever includes this binds `liquids` and, read-only, `paint_sums`.
 
+// Whether particles are of several liquids or colours.
+override PAINT: bool = false;
+
 struct Liquids {
     paint: Paint,
     looks: array<Optics, MOST_LIQUIDS>,
@@ -135,7 +138,7 @@ fn shares_at(pixel: TilePixel) -> PixelShares {
 
 // The shares of the first three liquids near the surface.
 fn liquids_at(pixel: TilePixel) -> vec3f {
-    if liquids.paint.planes == 0u {
+    if !PAINT {
         return vec3f(1.0, 0.0, 0.0);
     }
     let others = shares_at(pixel).surface.liquids;
@@ -148,7 +151,7 @@ fn liquids_at(pixel: TilePixel) -> vec3f {
 
 // The look at a pixel of the fluid, `thickness` deep in world units.
 fn optics_at(pixel: TilePixel, thickness: f32) -> Optics {
-    if liquids.paint.planes == 0u {
+    if !PAINT {
         return liquids.looks[0];
     }
     if arrayLength(&paint_sums) <= NO_SUMS {

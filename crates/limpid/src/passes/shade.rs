@@ -53,9 +53,6 @@ pub(crate) struct SceneViews<'a> {
     pub environment_map: &'a wgpu::TextureView,
 }
 
-/// Without layers and with them.
-type Kernels = [Kernel; 2];
-
 /// What shading takes beside the liquid.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct With<'a> {
@@ -67,40 +64,55 @@ pub(crate) struct With<'a> {
     pub foam: Option<&'a wgpu::Buffer>,
 }
 
-impl With<'_> {
-    fn index(&self) -> usize {
-        usize::from(self.droplets.is_some()) + 2 * usize::from(self.foam.is_some())
+/// What a frame needs of the shader: its overrides. CPU drivers run both sides of a branch, so there is a kernel for each choice.
+#[derive(Clone, Copy, Default)]
+struct Parts {
+    layers: bool,
+    droplets: bool,
+    foam: bool,
+    /// Particles of several liquids or colours.
+    paint: bool,
+    /// [`EnvironmentUniform::is_elaborate`].
+    elaborate: bool,
+}
+
+impl Parts {
+    fn list(self) -> [(&'static str, bool); 5] {
+        let Self { layers, droplets, foam, paint, elaborate } = self;
+        [("LAYERS", layers), ("DROPLETS", droplets), ("FOAM", foam), ("PAINT", paint), ("ELABORATE", elaborate)]
+    }
+
+    fn index(self) -> usize {
+        self.list().iter().rev().fold(0, |index, (_, is_on)| 2 * index + usize::from(*is_on))
     }
 }
 
 #[derive(Clone)]
 pub(crate) struct Shade {
-    plain: Kernels,
-    /// Those of [`With`]; made when first asked for.
-    veiled: [Option<Kernels>; 4],
+    module: wgpu::ShaderModule,
+    /// By [`Parts::index`]; made when first asked for.
+    kernels: [Option<Kernel>; 32],
+    /// What the frame that was written needs, but layers, droplets and foam.
+    parts: Parts,
     liquids: wgpu::Buffer,
     environment: wgpu::Buffer,
 }
 
 impl Shade {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        Self {
-            plain: Self::kernels(device, frame, &With::default()),
-            veiled: [None, None, None, None],
+        let mut shade = Self {
+            module: Self::module(device),
+            kernels: Default::default(),
+            parts: Parts::default(),
             liquids: uniform_buffer::<LiquidsUniform>(device, "liquids"),
             environment: uniform_buffer::<EnvironmentUniform>(device, "environment"),
-        }
+        };
+        shade.reserve(device, frame, &With::default(), true);
+        shade
     }
 
-    /// Readies what droplets and foam need.
-    pub fn reserve(&mut self, device: &wgpu::Device, frame: &wgpu::BindGroupLayout, with: &With<'_>) {
-        if with.index() > 0 {
-            self.veiled[with.index()].get_or_insert_with(|| Self::kernels(device, frame, with));
-        }
-    }
-
-    fn kernels(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, with: &With<'_>) -> Kernels {
-        let module = module!(
+    fn module(device: &wgpu::Device) -> wgpu::ShaderModule {
+        module!(
             device,
             "shade",
             "../frame.wgsl",
@@ -120,7 +132,24 @@ impl Shade {
             "droplets_behind.wgsl",
             "detail_image.wgsl",
             "shade.wgsl"
-        );
+        )
+    }
+
+    /// Makes the kernels of the frame that was written, for its layers too if it has them.
+    pub fn reserve(&mut self, device: &wgpu::Device, frame: &wgpu::BindGroupLayout, with: &With<'_>, layers: bool) {
+        for parts in [self.parts_of(&With::default()), Parts { layers, ..self.parts_of(with) }] {
+            if self.kernels[parts.index()].is_none() {
+                self.kernels[parts.index()] = Some(self.kernel(device, frame, parts));
+            }
+        }
+    }
+
+    fn parts_of(&self, with: &With<'_>) -> Parts {
+        let With { layers, droplets, foam } = with;
+        Parts { layers: layers.is_some(), droplets: droplets.is_some(), foam: foam.is_some(), ..self.parts }
+    }
+
+    fn kernel(&self, device: &wgpu::Device, frame: &wgpu::BindGroupLayout, parts: Parts) -> Kernel {
         let slots = [
             Slot::Read,
             Slot::Uniform,
@@ -138,20 +167,19 @@ impl Shade {
             Slot::Uniform,
             Slot::Uniform,
         ];
-        [false, true].map(|layers| {
-            let flags = [("LAYERS", layers), ("DROPLETS", with.droplets.is_some()), ("FOAM", with.foam.is_some())];
-            let constants = flags.map(|(name, is_on)| (name, f64::from(u8::from(is_on))));
-            Kernel::with_constants(device, frame, &module, "shade", &slots, &constants)
-        })
+        let constants = parts.list().map(|(name, is_on)| (name, f64::from(u8::from(is_on))));
+        Kernel::with_constants(device, frame, &self.module, "shade", &slots, &constants)
     }
 
     pub fn write(
-        &self,
+        &mut self,
         recorder: &mut Recorder<'_>,
         queue: &wgpu::Queue,
         liquids: &LiquidsUniform,
         environment: &EnvironmentUniform,
     ) {
+        let paint = liquids.paint.planes > 0;
+        self.parts = Parts { paint, elaborate: environment.is_elaborate(), ..Parts::default() };
         recorder.write(queue, &self.liquids, liquids);
         recorder.write(queue, &self.environment, environment);
     }
@@ -186,8 +214,8 @@ impl Shade {
             droplets.map_or(&self.environment, |droplets| &droplets.uniform).as_entire_binding(),
             foam.unwrap_or(&self.environment).as_entire_binding(),
         ];
-        let [plain, layered] = self.veiled[with.index()].as_ref().unwrap_or(&self.plain);
-        let kernel = if layers.is_some() { layered } else { plain };
-        recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));
+        if let Some(kernel) = &self.kernels[self.parts_of(with).index()] {
+            recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));
+        }
     }
 }

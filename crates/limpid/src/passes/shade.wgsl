@@ -68,18 +68,27 @@ fn scene_color_behind(px: vec2f, depth: f32) -> vec4f {
     let at = clamp(px * settings.fluid_scale - 0.5, vec2f(0.0), vec2f(last));
     let low = vec2i(at);
     let part = at - floor(at);
-    var sum = vec4f(0.0);
-    var weights = 0.0;
-    for (var corner = 0; corner < 4; corner++) {
-        let offset = vec2i(corner & 1, corner >> 1u);
-        let texel = min(low + offset, last);
-        let along = select(1.0 - part, part, offset == vec2i(1));
-        let is_behind = scene_depth_at((vec2f(texel) + 0.5) / settings.fluid_scale) > depth;
-        let weight = select(0.0, along.x * along.y, is_behind);
-        sum += weight * textureLoad(scene_color, texel, 0);
-        weights += weight;
-    }
-    return select(textureLoad(scene_color, low, 0), sum / weights, weights > 0.0);
+    // No loop: to CPU drivers it is dear.
+    let high = min(low + 1, last);
+    let right = vec2i(high.x, low.y);
+    let below = vec2i(low.x, high.y);
+    let is_behind = vec4<bool>(
+        is_scene_behind(low, depth),
+        is_scene_behind(right, depth),
+        is_scene_behind(below, depth),
+        is_scene_behind(high, depth)
+    );
+    let bilinear = vec4f(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4f(vec2f(1.0 - part.y), vec2f(part.y));
+    let weights = select(vec4f(0.0), bilinear, is_behind);
+    let first = textureLoad(scene_color, low, 0);
+    let sum = weights.x * first + weights.y * textureLoad(scene_color, right, 0)
+        + weights.z * textureLoad(scene_color, below, 0) + weights.w * textureLoad(scene_color, high, 0);
+    let weight = dot(weights, vec4f(1.0));
+    return select(first, sum / weight, weight > 0.0);
+}
+
+fn is_scene_behind(texel: vec2i, depth: f32) -> bool {
+    return scene_depth_at((vec2f(texel) + 0.5) / settings.fluid_scale) > depth;
 }
 
 // Where the scene behind the fluid is seen: the view ray, bent at the surface, as far into the fluid as the fluid is
@@ -113,6 +122,9 @@ fn lamps_light(sight: Sight, share: vec3f) -> vec3f {
     let toward = rotation * sight.toward;
     let glint = select(GLINT * optics.specular, 0.0, sight.is_submerged);
     var light = vec3f(0.0);
+    if !ELABORATE {
+        return light;
+    }
     for (var lamp = 1u; lamp < environment.light_count; lamp++) {
         let direction = environment.lights[lamp].toward;
         let highlight = pow(max(dot(normal, normalize(direction - toward)), 0.0), optics.shininess);
@@ -175,7 +187,11 @@ fn color_of(sight: Sight, foam: f32) -> vec4f {
     return color;
 }
 
-fn shading_of(sight: Sight, foam: f32) -> vec4f {
+fn shading_at(pixel: TilePixel, sight: Sight, foam: f32) -> vec4f {
+    if settings.shading == SHADING_LIQUIDS {
+        return vec4f(liquids_at(pixel), 1.0);
+    }
+    optics = optics_at(pixel, sight.thickness);
     if settings.shading == SHADING_TRANSMITTANCE {
         return vec4f(body_transmittance(sight.thickness), 1.0);
     }
@@ -200,18 +216,10 @@ fn shade(
     let px = vec2f(pixel.at) + 0.5;
     let near = nearness[pixel.index];
     let normal_thickness = surface[pixel.index];
-    if near <= 0.0 || normal_thickness.w < settings.min_thickness * settings.radius {
-        return;
-    }
     let depth = depth_of(near);
     // At a lower resolution upsample.wgsl decides, by the picture's own pixels.
-    if settings.fluid_scale == 1.0 && depth >= scene_depth_at(px) {
-        return;
+    let is_hidden = settings.fluid_scale == 1.0 && depth >= scene_depth_at(px);
+    if near > 0.0 && normal_thickness.w >= settings.min_thickness * settings.radius && !is_hidden {
+        shaded[pixel.index] = shading_at(pixel, sight_at(px, depth, normal_thickness), foam);
     }
-    if settings.shading == SHADING_LIQUIDS {
-        shaded[pixel.index] = vec4f(liquids_at(pixel), 1.0);
-        return;
-    }
-    optics = optics_at(pixel, normal_thickness.w);
-    shaded[pixel.index] = shading_of(sight_at(px, depth, normal_thickness), foam);
 }

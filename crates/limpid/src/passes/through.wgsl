@@ -34,15 +34,15 @@ fn bent(direction: vec3f, normal: vec3f, ratio: f32, share: f32) -> vec3f {
 // How far the light that a pixel collects spreads, per distance, once a curved surface has bent it: as far as the surface turns
 // from one pixel to the next, twice, since there are two.
 fn spread_of(sight: Sight) -> f32 {
-    let at = vec2i(sight.px);
-    var turn = 0.0;
-    for (var axis = 0; axis < 2; axis++) {
-        let next = min(at + vec2i(1 - axis, axis), vec2i(view.size) - 1);
-        let index = u32(next.y) * view.size.x + u32(next.x);
-        // Where there is no liquid, the surface is whatever it was.
-        turn = select(turn, max(turn, length(surface[index].xyz - sight.normal)), nearness[index] > 0.0);
-    }
+    let turn = max(turn_toward(sight, vec2i(1, 0)), turn_toward(sight, vec2i(0, 1)));
     return 2.0 * (optics.refractive_index - 1.0) * turn;
+}
+
+fn turn_toward(sight: Sight, step: vec2i) -> f32 {
+    let next = min(vec2i(sight.px) + step, vec2i(view.size) - 1);
+    let index = u32(next.y) * view.size.x + u32(next.x);
+    // Where there is no liquid, the surface is whatever it was.
+    return select(0.0, length(surface[index].xyz - sight.normal), nearness[index] > 0.0);
 }
 
 // The surroundings where they have a share, else nothing. A loop, since CPUs run both sides of a branch.
