@@ -1,5 +1,6 @@
 //! Buffers beside the picture.
 
+use crate::Shot;
 use limpid::{Detail, DropletsBuffer, Filter, Foam, FrameBuffers, Settings, Shading, Smoothing, View};
 
 /// A buffer that can be read back beside the picture.
@@ -165,6 +166,21 @@ impl Aov {
         let texel = |x: u32, y: u32| sums[(plane + y / scale * texels[0] + x / scale) as usize];
         let opacity = |sum: u32| 1.0 - (-(sum as f32) * DropletsBuffer::COUNT).exp();
         (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))).map(|(x, y)| opacity(texel(x, y))).collect()
+    }
+
+    /// One value of the layers (`limpid::LayersBuffer`) at every pixel of the picture, and what the surface is like there.
+    pub(crate) fn of_layers(self, shot: &Shot<'_>, (texels, size): (&[f32], [u32; 2]), surface: &[f32]) -> Vec<f32> {
+        let [width, height] = shot.size.map(|n| n as usize);
+        let scale = shot.size[0].div_ceil(size[0]) as usize;
+        let value = |i: usize| {
+            let texel = 12 * (i / width / scale * size[0] as usize + i % width / scale);
+            match self {
+                Self::BackDepth => shot.view.depth_of(texels[texel + 1]),
+                Self::BeyondDepth => shot.view.depth_of(texels[texel + 3]),
+                _ => texels[texel + 2] * surface[4 * i + 3],
+            }
+        };
+        (0..width * height).map(value).collect()
     }
 
     /// The image of what its buffer holds; `nearness` says where there is fluid.

@@ -246,16 +246,7 @@ impl Offscreen {
         let read = |buffer, count| readback::read_words(&self.gpu.device, &self.gpu.queue, buffer, count);
         let texels = read(layers.values, 12 * layers.size[0] as usize * layers.size[1] as usize)?;
         let surface = read(buffers.surface, 4 * width * height)?;
-        let scale = shot.size[0].div_ceil(layers.size[0]) as usize;
-        let value = |i: usize| {
-            let texel = 12 * (i / width / scale * layers.size[0] as usize + i % width / scale);
-            match aov {
-                Aov::BackDepth => shot.view.depth_of(texels[texel + 1]),
-                Aov::BeyondDepth => shot.view.depth_of(texels[texel + 3]),
-                _ => texels[texel + 2] * surface[4 * i + 3],
-            }
-        };
-        Ok((0..width * height).map(value).collect())
+        Ok(aov.of_layers(shot, (&texels, layers.size), &surface))
     }
 
     /// What white behind everything adds to the picture.

@@ -8,6 +8,8 @@ pub struct Peek {
     nearness: Download,
     /// None: the picture follows from the depth alone.
     values: Option<Download>,
+    /// Thickness and normals, where they are needed too.
+    surface: Option<Download>,
     /// Size in texels of what was copied.
     texels: [u32; 2],
 }
@@ -25,6 +27,7 @@ impl Painter {
         let buffers = self.renderer().buffers()?;
         let count = |size: [u32; 2]| size[0] as usize * size[1] as usize;
         let mut texels = shot.size;
+        let mut surface = None;
         let values = match aov {
             _ if !aov.can_be_peeked() => return None,
             Aov::Motion => None,
@@ -39,6 +42,12 @@ impl Painter {
                 texels = droplets.size;
                 Some(Download::of_words(device, encoder, droplets.sums, 2 * count(texels)))
             }
+            Aov::BackDepth | Aov::BeyondDepth | Aov::FirstThickness => {
+                let layers = self.renderer().layers()?;
+                texels = layers.size;
+                surface = Some(Download::of_words(device, encoder, buffers.surface, 4 * count(shot.size)));
+                Some(Download::of_words(device, encoder, layers.values, 12 * count(texels)))
+            }
             _ => {
                 let curvature =
                     (aov == Aov::Curvature).then(|| self.renderer().mean_curvature(device, encoder)).flatten();
@@ -47,21 +56,21 @@ impl Painter {
             }
         };
         let nearness = Download::of_words(device, encoder, buffers.nearness, count(shot.size));
-        Some(Peek { aov, nearness, values, texels })
+        Some(Peek { aov, nearness, values, surface, texels })
     }
 }
 
 impl Aov {
-    /// Whether [`Painter::peek`] has it: not those that take more than one picture, nor those of the layers.
+    /// Whether [`Painter::peek`] has it: not the one that takes more than one picture.
     pub fn can_be_peeked(self) -> bool {
-        !matches!(self, Self::Passage | Self::BackDepth | Self::BeyondDepth | Self::FirstThickness)
+        self != Self::Passage
     }
 }
 
 impl Peek {
     /// Asks for the bytes, after the copies have been submitted.
     pub fn start(&mut self) {
-        self.values.iter_mut().for_each(Download::start);
+        self.values.iter_mut().chain(&mut self.surface).for_each(Download::start);
         self.nearness.start();
     }
 
@@ -72,15 +81,18 @@ impl Peek {
     pub fn image(&self, device: &wgpu::Device, shot: &Shot<'_>) -> Option<Result<Image, Error>> {
         // Asked for last, so it arrives last.
         let nearness = self.nearness.bytes(device)?;
-        let values = self.values.as_ref().and_then(|values| values.bytes(device));
+        let bytes = |download: &Option<Download>| download.as_ref().and_then(|download| download.bytes(device));
+        let (values, surface) = (bytes(&self.values), bytes(&self.surface));
         Some(nearness.and_then(|nearness| {
             let nearness: Vec<f32> = bytemuck::pod_collect_to_vec(&nearness);
             let bytes = values.transpose()?.unwrap_or_default();
-            Ok(self.aov.image(shot.size, &self.words(shot, &nearness, &bytes), &nearness, &shot.view))
+            let surface: Vec<f32> = bytemuck::pod_collect_to_vec(&surface.transpose()?.unwrap_or_default());
+            let words = self.words(shot, &nearness, &bytes, &surface);
+            Ok(self.aov.image(shot.size, &words, &nearness, &shot.view))
         }))
     }
 
-    fn words(&self, shot: &Shot<'_>, nearness: &[f32], bytes: &[u8]) -> Vec<f32> {
+    fn words(&self, shot: &Shot<'_>, nearness: &[f32], bytes: &[u8], surface: &[f32]) -> Vec<f32> {
         match self.aov {
             Aov::Motion => {
                 let depth: Vec<f32> = nearness.iter().map(|nearness| shot.view.depth_of(*nearness)).collect();
@@ -98,6 +110,9 @@ impl Peek {
                     .flat_map(|y| (0..shot.size[0]).map(move |x| (x, y)))
                     .map(|(x, y)| values[texel(x, y)])
                     .collect()
+            }
+            Aov::BackDepth | Aov::BeyondDepth | Aov::FirstThickness => {
+                self.aov.of_layers(shot, (&bytemuck::pod_collect_to_vec(bytes), self.texels), surface)
             }
             Aov::Spray | Aov::Bubbles => {
                 self.aov.of_droplets(&bytemuck::pod_collect_to_vec(bytes), self.texels, shot.size)

@@ -4,7 +4,6 @@
 //! can panic or ask for more memory than it has.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -120,7 +119,7 @@ fn read_uri(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
         return BASE64.decode(encoded.trim()).map_err(|error| format!("a data URI is damaged ({error})"));
     }
     let file = texture::beside(path, &percent_decoded(uri));
-    fs::read(&file).map_err(|error| format!("its file {} cannot be read ({error})", file.display()))
+    crate::files::read(&file).map_err(|error| format!("its file {} cannot be read ({error})", file.display()))
 }
 
 /// `%20` and the like as the bytes they stand for.

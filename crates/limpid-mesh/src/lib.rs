@@ -6,6 +6,7 @@
 
 mod accessor;
 mod error;
+pub mod files;
 mod gltf;
 mod mtl;
 mod obj;
@@ -14,7 +15,7 @@ pub mod sample;
 mod stl;
 mod texture;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -106,9 +107,11 @@ pub fn load(path: &Path) -> Result<Mesh, Error> {
     }
     // The reader of PLY goes through the file itself.
     let mut start = Vec::new();
-    File::open(path).and_then(|file| file.take(4).read_to_end(&mut start)).map_err(io)?;
+    if let Ok(file) = File::open(path) {
+        file.take(4).read_to_end(&mut start).map_err(io)?;
+    }
     let is_ply = matches!(start[..], [b'p', b'l', b'y', b'\r' | b'\n']);
-    let bytes = if is_ply { start } else { fs::read(path).map_err(io)? };
+    let bytes = if is_ply { start } else { files::read(path).map_err(io)? };
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     let mesh = match (&bytes[..], extension.as_deref()) {
         ([], _) => Err(Fault::broken("it is empty")),

@@ -1,14 +1,13 @@
 //! The material libraries of OBJ files.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::Path;
 
 use crate::{Material, texture};
 
 /// Adds the materials of a library. What is missing or odd becomes a warning: the mesh has its shape without.
 pub(crate) fn read(path: &Path, materials: &mut HashMap<String, Material>, warnings: &mut Vec<String>) {
-    let text = match fs::read(path) {
+    let text = match crate::files::read(path) {
         Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
         Err(error) => {
             warnings.push(format!("material library {} cannot be read ({error}): left out", path.display()));

@@ -7,7 +7,6 @@ use limpid::{Body, Bounds, Look, Material, PartSlices, TextureSlices};
 use limpid_io::Frame;
 use serde::Deserialize;
 use std::collections::HashMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -120,9 +119,9 @@ impl Props {
     /// Reads the bodies; takes their meshes out of those `given` where there is one of their name.
     fn load_listing(&mut self, path: &Path, given: &mut Vec<PathBuf>) -> Result<(), Error> {
         let broken = |problem: String| Error::usage(format!("{}: {problem}", path.display()));
-        let text =
-            fs::read_to_string(path).map_err(|error| broken(format!("cannot be read ({error}); check --bodies")))?;
-        let listing: Listing = serde_json::from_str(&text)
+        let text = limpid_mesh::files::read(path)
+            .map_err(|error| broken(format!("cannot be read ({error}); check --bodies")))?;
+        let listing: Listing = serde_json::from_slice(&text)
             .map_err(|error| broken(format!("is no list of bodies ({error}); correct it there")))?;
         let named = |entry: &Entry, path: &Path| entry.mesh.file_name() == path.file_name();
         let mut loaded: HashMap<PathBuf, usize> = HashMap::new();
@@ -134,7 +133,7 @@ impl Props {
             }
             let file = given.iter().find(|path| named(entry, path)).cloned();
             let file = file.unwrap_or_else(|| path.parent().unwrap_or(Path::new("")).join(&entry.mesh));
-            if !file.is_file() {
+            if !limpid_mesh::files::is_file(&file) {
                 return Err(broken(format!(
                     "body \"{}\" has no mesh: there is no file {}; correct the path there or give the file by --mesh",
                     entry.name,

@@ -3,7 +3,7 @@
 use crate::book::Book;
 use crate::controls::Controls;
 use crate::desk::{Command, Desk};
-use crate::frames::{self, Frames, Source};
+use crate::frames::{self, Frames, Kind, Source};
 use crate::pace::{Grade, Instant, Pace};
 use crate::picture::{Picture, Wanted};
 use crate::times::Times;
@@ -18,6 +18,9 @@ use toml::Value;
 
 /// Windows narrower than this many points begin without the panel of settings.
 const NARROW: f32 = 640.0;
+
+/// Points along a square of the checkerboard behind transparent pictures.
+const CHECK: f32 = 10.0;
 
 /// Speeds of playback.
 const SPEEDS: [f64; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0];
@@ -56,6 +59,8 @@ pub struct Viewer {
     picture: Picture,
     compared: Option<Compared>,
     stand: Stand,
+    /// Shows through transparent pictures.
+    checks: egui::TextureHandle,
     fills_window: bool,
     size: [u32; 2],
     pose: Option<Pose>,
@@ -135,6 +140,7 @@ impl Viewer {
             ticked: None,
             compared: None,
             stand: Stand::default(),
+            checks: checks(&context.egui_ctx),
             fills_window: !start.has_size,
             size,
             pose: None,
@@ -209,12 +215,13 @@ impl Viewer {
 
     /// Particle files, or settings.
     fn receive(&mut self, ctx: &egui::Context, sources: Vec<Source>) {
-        let is_toml = |source: &Source| match source {
-            Source::Path(path) | Source::Bytes(path, _) => {
-                path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+        let (settings, others): (Vec<_>, Vec<_>) = sources.into_iter().partition(|s| s.kind() == Kind::Settings);
+        let (particles, props): (Vec<_>, Vec<_>) = others.into_iter().partition(|s| s.kind() == Kind::Particles);
+        for source in props {
+            if let Err(problem) = self.place(source) {
+                self.complain(problem);
             }
-        };
-        let (settings, particles): (Vec<_>, Vec<_>) = sources.into_iter().partition(is_toml);
+        }
         for source in settings {
             let (path, text) = match source {
                 Source::Path(path) => (path.clone(), std::fs::read_to_string(path).map_err(|error| error.to_string())),
@@ -249,6 +256,31 @@ impl Viewer {
             }
             Err(error) => self.complain(error.to_string()),
         }
+    }
+
+    /// A mesh, a list of bodies or a picture of light, into the scene.
+    fn place(&mut self, source: Source) -> Result<(), String> {
+        let kind = source.kind();
+        let name = source.path().display().to_string();
+        if let Source::Bytes(path, bytes) = source {
+            limpid_mesh::files::hold(&path, bytes);
+        }
+        // Whatever was read by this name is old.
+        self.stand.key = None;
+        self.stand.environment = None;
+        let set = match kind {
+            Kind::Mesh => {
+                let mut meshes = self.book.options().mesh.clone().unwrap_or_default();
+                meshes.retain(|mesh| *mesh != name);
+                meshes.push(name);
+                self.book.set("mesh", Value::Array(meshes.into_iter().map(Value::String).collect()))
+            }
+            Kind::Bodies => self.book.set("bodies", Value::String(name)),
+            Kind::Light => self.book.set("environment", Value::String(name)),
+            // What a mesh names.
+            Kind::Beside | Kind::Settings | Kind::Particles => Ok(()),
+        };
+        set.map_err(|error| error.to_string())
     }
 
     fn complain(&mut self, problem: String) {
@@ -743,6 +775,10 @@ impl Viewer {
         let shows_buffer = self.book.options().show.is_some();
         let painter = ui.painter_at(room);
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+        if self.book.options().background() == Background::Transparent && !shows_buffer {
+            let uv = Rect::from_min_size(Pos2::ZERO, rect.size() / (2.0 * CHECK));
+            painter.image(self.checks.id(), rect, uv, Color32::WHITE);
+        }
         match &mut self.compared {
             None => {
                 let texture = self.picture.texture(shows_buffer).map(|(texture, _)| texture);
@@ -893,6 +929,12 @@ impl eframe::App for Viewer {
         }
         crate::show_address(&self.desk);
     }
+}
+
+/// A tile of a checkerboard.
+fn checks(ctx: &egui::Context) -> egui::TextureHandle {
+    let image = egui::ColorImage::from_gray([2, 2], &[150, 105, 105, 150]);
+    ctx.load_texture("checks", image, egui::TextureOptions::NEAREST_REPEAT)
 }
 
 /// The place of a picture in the room for it.

@@ -104,14 +104,8 @@ impl Fluid {
             _ => return Err(JsError::new("the canvas cannot be drawn on now: draw again at the next animation frame")),
         };
         if let Some(shown) = self.painter.shown() {
-            // The bytes as they are: the canvas is encoded for the screen too.
-            let raw = wgpu::TextureViewDescriptor {
-                format: Some(Painter::SHOWN_RAW),
-                usage: Some(wgpu::TextureUsages::TEXTURE_BINDING),
-                ..Default::default()
-            };
             let to = target.texture.create_view(&Default::default());
-            self.blitter.copy(&self.device, &mut encoder, &shown.create_view(&raw), &to);
+            self.blitter.copy(&self.device, &mut encoder, &crate::premultiply::raw_view(shown), &to);
         }
         self.queue.submit([encoder.finish()]);
         self.queue.present(target);

@@ -18,10 +18,42 @@ pub enum Source {
     Bytes(PathBuf, Arc<[u8]>),
 }
 
+/// What a file is for, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A `.toml`.
+    Settings,
+    /// A mesh for the scene; `.ply` is particles.
+    Mesh,
+    /// `bodies.json`.
+    Bodies,
+    /// A picture of light from all around.
+    Light,
+    /// Materials, textures and buffers that a mesh names.
+    Beside,
+    /// Anything else.
+    Particles,
+}
+
 impl Source {
-    fn path(&self) -> &PathBuf {
+    /// Where it is, or what it is called.
+    pub fn path(&self) -> &PathBuf {
         match self {
             Self::Path(path) | Self::Bytes(path, _) => path,
+        }
+    }
+
+    /// What it is for.
+    pub fn kind(&self) -> Kind {
+        let name = self.path().file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+        match extension {
+            "toml" => Kind::Settings,
+            "obj" | "gltf" | "glb" | "stl" => Kind::Mesh,
+            "json" if name.starts_with("bodies") => Kind::Bodies,
+            "hdr" | "exr" => Kind::Light,
+            "mtl" | "png" | "jpg" | "jpeg" | "bin" => Kind::Beside,
+            _ => Kind::Particles,
         }
     }
 }
@@ -267,4 +299,18 @@ pub fn in_order(sources: Vec<Source>) -> (Vec<(Frame, Source)>, Vec<String>) {
     let source = |frame: &Frame| sources.iter().find(|source| *source.path() == frame.path).cloned();
     let files = sequence.frames.iter().filter_map(|frame| Some((frame.clone(), source(frame)?))).collect();
     (files, sequence.warnings)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_what_files_are_for() {
+        let kind = |name: &str| Source::Path(name.into()).kind();
+        assert_eq!(kind("a/Shot.TOML"), Kind::Settings);
+        assert_eq!(kind("cup.GLB"), Kind::Mesh);
+        assert_eq!([kind("bodies.json"), kind("frame_3.json")], [Kind::Bodies, Kind::Particles]);
+        assert_eq!([kind("sky.exr"), kind("cup.mtl"), kind("a.ply"), kind("folder")].map(|k| k == Kind::Particles), [false, false, true, true]);
+    }
 }

@@ -12,6 +12,7 @@ mod frames;
 mod link;
 mod pace;
 mod picture;
+mod premultiply;
 mod save;
 mod times;
 

@@ -1,10 +1,11 @@
 //! Drawing a shot into a texture of the window's.
 
 use crate::pace::Grade;
+use crate::premultiply::{Premultiply, raw_view};
 use eframe::egui::{self, TextureId};
 use eframe::egui_wgpu::{RenderState, wgpu};
 use limpid::{Body, Particles, PassTime, Profiler};
-use limpid_headless::{Aov, Download, Painter, Peek, Shot, mean_of, sample_offset_px};
+use limpid_headless::{Aov, Background, Download, Painter, Peek, Shot, mean_of, sample_offset_px};
 use limpid_io::Frame;
 use limpid_shot::{Diffuse, Error, FrameParticles, Legend, Living, Options, Paints, Pose, Props, Stage, Survey};
 use std::sync::Arc;
@@ -12,8 +13,12 @@ use std::sync::Arc;
 /// A picture in the window, with all that it takes to draw it again.
 pub struct Picture {
     painter: Painter,
+    /// Made when first asked for.
+    premultiply: Option<Premultiply>,
     texture: Option<TextureId>,
+    /// What `texture` is of.
     drawn_size: [u32; 2],
+    is_transparent: bool,
     /// What was asked for; `drawn_size` may be less.
     whole_size: [u32; 2],
     loaded: Option<Loaded>,
@@ -97,8 +102,10 @@ impl Picture {
     pub fn new(gpu: &RenderState) -> Self {
         Self {
             painter: Painter::new(&gpu.device, &gpu.queue),
+            premultiply: None,
             texture: None,
             drawn_size: [0; 2],
+            is_transparent: false,
             whole_size: [0; 2],
             loaded: None,
             living: None,
@@ -186,6 +193,11 @@ impl Picture {
         let drawn = self.painter.draw(&gpu.device, &gpu.queue, &mut encoder, &shot, &loaded.particles);
         let profiler = self.painter.renderer_mut().set_profiler(None);
         drawn?;
+        let is_transparent = shot.background == Background::Transparent;
+        let premultiplied = self.painter.shown().filter(|_| is_transparent).map(|shown| {
+            let pass = self.premultiply.get_or_insert_with(|| Premultiply::new(&gpu.device));
+            pass.encode(&gpu.device, &mut encoder, shown).create_view(&Default::default())
+        });
         let mut peek = match options.show {
             Some(aov) if self.peek.is_none() => self.painter.peek(&gpu.device, &mut encoder, &shot, aov.0),
             _ => None,
@@ -219,20 +231,16 @@ impl Picture {
         }
         self.peek = self.peek.take().or(peek);
         self.grab = grab.or(self.grab.take());
-        self.show(gpu, shot.size);
+        self.show(gpu, shot.size, premultiplied);
         Ok(stage.pose())
     }
 
-    fn show(&mut self, gpu: &RenderState, size: [u32; 2]) {
-        let Some(shown) = self.painter.shown().filter(|_| self.texture.is_none() || self.drawn_size != size) else {
-            return;
-        };
-        // The bytes as they are: the window's own are encoded for the screen too.
-        let view = shown.create_view(&wgpu::TextureViewDescriptor {
-            format: Some(Painter::SHOWN_RAW),
-            usage: Some(wgpu::TextureUsages::TEXTURE_BINDING),
-            ..Default::default()
-        });
+    fn show(&mut self, gpu: &RenderState, size: [u32; 2], premultiplied: Option<wgpu::TextureView>) {
+        let of = (self.drawn_size, self.is_transparent);
+        let is_new = self.texture.is_none() || of != (size, premultiplied.is_some());
+        let Some(shown) = self.painter.shown().filter(|_| is_new) else { return };
+        self.is_transparent = premultiplied.is_some();
+        let view = premultiplied.unwrap_or_else(|| raw_view(shown));
         let mut renderer = gpu.renderer.write();
         match self.texture {
             Some(id) => {

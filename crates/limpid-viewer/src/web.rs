@@ -5,9 +5,9 @@ use crate::desk::{Command, Desk};
 use crate::frames::Source;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use limpid_headless::device_descriptor;
+use limpid_headless::{Image, device_descriptor};
 use limpid_shot::Options;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use wasm_bindgen::prelude::*;
 
@@ -35,7 +35,7 @@ pub async fn start(canvas: web_sys::HtmlCanvasElement) -> Result<Handle, JsValue
         has_size: false,
         plays: false,
         screenshot: None,
-        read_environment: |path| Err(format!("{}: a page cannot read files by name", path.display())),
+        read_environment,
     };
     let (sender, context) = std::sync::mpsc::channel();
     let of_app = desk.clone();
@@ -149,6 +149,18 @@ impl Handle {
         self.desk.put(command);
         self.ctx.request_repaint();
     }
+}
+
+/// Reads a picture of light that was dropped on the page.
+fn read_environment(path: &Path) -> Result<Image, String> {
+    let bad = |problem: &str| format!("{}: {problem}", path.display());
+    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hdr")) {
+        return Err(bad("is no .hdr picture; convert it to one, or use limpid view"));
+    }
+    let bytes = limpid_mesh::files::read(path).map_err(|_| bad("is not there; drop it on the page"))?;
+    let decoded = image::load_from_memory_with_format(&bytes, image::ImageFormat::Hdr);
+    let decoded = decoded.map_err(|error| bad(&format!("is no whole hdr picture ({error}); check the file")))?.into_rgb32f();
+    Ok(Image { size: [decoded.width(), decoded.height()], channels: 3, values: decoded.into_raw() })
 }
 
 /// Files dropped on the page.

@@ -146,6 +146,15 @@ impl Chromium {
 
     /// Waits until a script comes to true.
     pub fn wait(&mut self, condition: &str) {
+        self.wait_in_steps(condition, Duration::from_millis(100));
+    }
+
+    /// The same to a few milliseconds.
+    pub fn wait_closely(&mut self, condition: &str) {
+        self.wait_in_steps(condition, Duration::from_millis(2));
+    }
+
+    fn wait_in_steps(&mut self, condition: &str, step: Duration) {
         let begin = Instant::now();
         // A page that is not there yet has none of what is asked for.
         while self.run(&format!("(() => {{ try {{ return !!({condition}) }} catch {{ return false }} }})()")) != true {
@@ -155,7 +164,7 @@ impl Chromium {
                 );
                 panic!("never came true: {condition}; {status}; {:?}", self.errors);
             }
-            std::thread::sleep(Duration::from_millis(100));
+            std::thread::sleep(step);
         }
     }
 
@@ -166,6 +175,19 @@ impl Chromium {
         let bytes = self.run("Array.from(viewer.png())");
         let bytes: Vec<u8> = serde_json::from_value(bytes).unwrap();
         image::load_from_memory(&bytes).unwrap().to_rgb8()
+    }
+
+    /// Processor time that all of the browser's processes have taken, on Linux.
+    pub fn processor_ms(&self) -> f64 {
+        let name = self.profile.file_name().unwrap().to_string_lossy().into_owned();
+        let of_process = |folder: std::fs::DirEntry| {
+            let command = std::fs::read_to_string(folder.path().join("cmdline")).ok()?;
+            let stat = std::fs::read_to_string(folder.path().join("stat")).ok()?;
+            let ticks = stat.rsplit(')').next()?.split_whitespace().skip(11).take(2);
+            command.contains(&name).then(|| ticks.filter_map(|t| t.parse::<f64>().ok()).sum::<f64>())
+        };
+        let folders = std::fs::read_dir("/proc").into_iter().flatten().flatten();
+        10.0 * folders.filter_map(of_process).sum::<f64>()
     }
 
     pub fn resize(&mut self, width: u32, height: u32) {
