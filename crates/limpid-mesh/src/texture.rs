@@ -29,7 +29,8 @@ pub(crate) fn decode(bytes: &[u8], srgb: bool) -> Result<Arc<Texture>, String> {
 /// The same for a file beside the mesh. An error names it.
 pub(crate) fn load(path: &Path, srgb: bool) -> Result<Arc<Texture>, String> {
     let name = path.display();
-    let bytes = crate::files::read(path).map_err(|error| format!("texture {name} cannot be read ({error}): left out"))?;
+    let bytes =
+        crate::files::read(path).map_err(|error| format!("texture {name} cannot be read ({error}): left out"))?;
     decode(&bytes, srgb).map_err(|problem| format!("texture {name} is damaged or no PNG or JPEG ({problem}): left out"))
 }
 

@@ -311,6 +311,9 @@ mod tests {
         assert_eq!(kind("a/Shot.TOML"), Kind::Settings);
         assert_eq!(kind("cup.GLB"), Kind::Mesh);
         assert_eq!([kind("bodies.json"), kind("frame_3.json")], [Kind::Bodies, Kind::Particles]);
-        assert_eq!([kind("sky.exr"), kind("cup.mtl"), kind("a.ply"), kind("folder")].map(|k| k == Kind::Particles), [false, false, true, true]);
+        assert_eq!(
+            [kind("sky.exr"), kind("cup.mtl"), kind("a.ply"), kind("folder")].map(|k| k == Kind::Particles),
+            [false, false, true, true]
+        );
     }
 }

@@ -30,13 +30,8 @@ pub async fn start(canvas: web_sys::HtmlCanvasElement) -> Result<Handle, JsValue
     setup.device_descriptor = Arc::new(device_descriptor);
     let wgpu_options = WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() };
     let options = eframe::WebOptions { wgpu_options, ..Default::default() };
-    let start = Start {
-        options: Options::defaults(),
-        has_size: false,
-        plays: false,
-        screenshot: None,
-        read_environment,
-    };
+    let start =
+        Start { options: Options::defaults(), has_size: false, plays: false, screenshot: None, read_environment };
     let (sender, context) = std::sync::mpsc::channel();
     let of_app = desk.clone();
     let create = move |creation: &eframe::CreationContext<'_>| {
@@ -159,7 +154,8 @@ fn read_environment(path: &Path) -> Result<Image, String> {
     }
     let bytes = limpid_mesh::files::read(path).map_err(|_| bad("is not there; drop it on the page"))?;
     let decoded = image::load_from_memory_with_format(&bytes, image::ImageFormat::Hdr);
-    let decoded = decoded.map_err(|error| bad(&format!("is no whole hdr picture ({error}); check the file")))?.into_rgb32f();
+    let decoded =
+        decoded.map_err(|error| bad(&format!("is no whole hdr picture ({error}); check the file")))?.into_rgb32f();
     Ok(Image { size: [decoded.width(), decoded.height()], channels: 3, values: decoded.into_raw() })
 }
 

@@ -45,6 +45,26 @@ impl Drop for Server {
     }
 }
 
+/// Keeps what a page hands to the browser: devices asked for, files saved, text copied.
+const WATCH: &str = "
+    window.devices = [];
+    window.saved = [];
+    if (window.GPUAdapter) {
+        const ask = GPUAdapter.prototype.requestDevice;
+        GPUAdapter.prototype.requestDevice = async function (...how) {
+            const device = await ask.apply(this, how);
+            devices.push(device);
+            return device;
+        };
+    }
+    HTMLAnchorElement.prototype.click = function () {
+        const file = { name: this.download };
+        saved.push(file);
+        fetch(this.href).then((answer) => answer.text()).then((text) => { file.text = text; });
+    };
+    if (navigator.clipboard) navigator.clipboard.writeText = async (text) => { window.copied = text; };
+";
+
 /// A browser with one page.
 pub struct Chromium {
     process: Child,
@@ -91,6 +111,7 @@ impl Chromium {
         for domain in ["Runtime.enable", "Log.enable", "Page.enable"] {
             page.call(domain, json!({}));
         }
+        page.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": WATCH }));
         page.call("Page.navigate", json!({ "url": address }));
         page
     }
@@ -190,6 +211,59 @@ impl Chromium {
         10.0 * folders.filter_map(of_process).sum::<f64>()
     }
 
+    /// A click, or what is dragged from one place to another.
+    pub fn drag(&mut self, from: (f64, f64), to: (f64, f64)) {
+        let half = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
+        for (kind, at) in [("Moved", from), ("Pressed", from), ("Moved", half), ("Moved", to), ("Released", to)] {
+            self.mouse(kind, at);
+            // A window takes one step a picture.
+            self.pause(60);
+        }
+    }
+
+    pub fn click(&mut self, at: (f64, f64)) {
+        self.drag(at, at);
+    }
+
+    pub fn mouse(&mut self, kind: &str, (x, y): (f64, f64)) {
+        let button = if kind == "Moved" { "none" } else { "left" };
+        let event = json!({ "type": format!("mouse{kind}"), "x": x, "y": y, "button": button, "clickCount": 1 });
+        self.call("Input.dispatchMouseEvent", event);
+    }
+
+    /// Fingers put down, moved from place to place, and taken off.
+    pub fn touch(&mut self, steps: &[[(f64, f64); 2]]) {
+        for (i, fingers) in steps.iter().enumerate() {
+            let points: Vec<Value> =
+                (0..).zip(fingers).map(|(id, (x, y))| json!({ "x": x, "y": y, "id": id })).collect();
+            let kind = if i == 0 { "touchStart" } else { "touchMove" };
+            self.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+            self.pause(60);
+        }
+        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    }
+
+    /// A key held for so long; `modifiers` as the protocol counts them: 2 is Ctrl, 8 Shift.
+    pub fn key(&mut self, key: &str, modifiers: u32, ms: u64) {
+        let code = if key.len() == 1 { format!("Key{}", key.to_uppercase()) } else { key.to_owned() };
+        for kind in ["rawKeyDown", "keyUp"] {
+            let event = json!({ "type": kind, "key": key, "code": code, "modifiers": modifiers });
+            self.call("Input.dispatchKeyEvent", event);
+            self.pause(ms);
+        }
+    }
+
+    pub fn pause(&mut self, ms: u64) {
+        self.run(&format!("new Promise((done) => setTimeout(done, {ms}))"));
+    }
+
+    /// What is to be seen, controls and all.
+    pub fn screenshot(&mut self) -> image::RgbImage {
+        let packed = self.call("Page.captureScreenshot", json!({}));
+        let png = base64(packed["data"].as_str().unwrap());
+        image::load_from_memory(&png).unwrap().to_rgb8()
+    }
+
     pub fn resize(&mut self, width: u32, height: u32) {
         let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", size);
@@ -213,6 +287,22 @@ fn program() -> &'static str {
         |name: &&&str| Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
     let names = ["chromium", "chromium-browser", "google-chrome"];
     names.iter().find(runs).expect("there is no Chromium: apt-get install chromium")
+}
+
+fn base64(text: &str) -> Vec<u8> {
+    let value = |c: u8| match c {
+        b'A'..=b'Z' => c - b'A',
+        b'a'..=b'z' => c - b'a' + 26,
+        b'0'..=b'9' => c - b'0' + 52,
+        b'+' => 62,
+        _ => 63,
+    };
+    let digits: Vec<u8> = text.bytes().filter(|c| *c != b'=').map(value).collect();
+    let bytes = |four: &[u8]| {
+        let bits = four.iter().fold(0u32, |bits, digit| bits << 6 | u32::from(*digit)) << (6 * (4 - four.len()));
+        bits.to_be_bytes()[1..four.len()].to_vec()
+    };
+    digits.chunks(4).flat_map(bytes).collect()
 }
 
 /// Finds the page by the browser's list of them.

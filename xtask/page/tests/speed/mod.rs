@@ -1,10 +1,7 @@
-//! How long the page's pictures take. Nothing is asserted: `cargo test --release -p limpid-page --test speed -- --ignored --nocapture`
+//! How long the page's pictures take. Nothing is asserted: `cargo test --release -p limpid-page --test browser speed -- --ignored --nocapture`
 //! after `cargo xtask web`, on a machine that does nothing else.
 
-mod chromium;
-
-use chromium::{Chromium, Server};
-use serde_json::json;
+use crate::chromium::{Chromium, Server};
 use std::time::{Duration, Instant};
 
 /// Pictures of each kind that are timed, after half as many to warm up.
@@ -59,17 +56,18 @@ fn pictures_take_so_long() {
         page.wait_closely(&format!("viewer.isSettled && viewer.fragment().includes('{eye}')"));
         begun.elapsed()
     });
-    mouse(&mut page, "mousePressed", 300.0);
+    page.mouse("Moved", (300.0, 400.0));
+    page.mouse("Pressed", (300.0, 400.0));
     let mut x = 300.0;
     report("dragged", &mut page, |page| {
         let (drawn, begun) = (page.number("viewer.drawn"), Instant::now());
         x += 2.0;
-        mouse(page, "mouseMoved", x);
+        page.mouse("Moved", (x, 400.0));
         page.wait_closely(&format!("viewer.drawn > {drawn}"));
         begun.elapsed()
     });
     println!("dragged pictures are {}", page.text("viewer.grade"));
-    mouse(&mut page, "mouseReleased", x);
+    page.mouse("Released", (x, 400.0));
     page.wait("viewer.isSettled");
 }
 
@@ -80,13 +78,8 @@ fn next_eye() -> String {
     format!("3.{:03}1", COUNT.fetch_add(1, Ordering::Relaxed))
 }
 
-fn mouse(page: &mut Chromium, kind: &str, x: f64) {
-    let event = json!({ "type": kind, "x": x, "y": 400.0, "button": "left", "buttons": 1, "clickCount": 1 });
-    page.call("Input.dispatchMouseEvent", event);
-}
-
 fn report(what: &str, page: &mut Chromium, mut picture: impl FnMut(&mut Chromium) -> Duration) {
-    (0..COUNT / 2).for_each(|_| drop(picture(page)));
+    (0..COUNT / 2).for_each(|_| _ = picture(page));
     let before = page.processor_ms();
     let mut times: Vec<f64> = (0..COUNT).map(|_| picture(page).as_secs_f64() * 1000.0).collect();
     times.sort_by(f64::total_cmp);
