@@ -23,6 +23,7 @@ fn root() -> std::path::PathBuf {
 fn the_page_draws_what_the_program_draws_and_does_what_its_users_do() {
     let server = Server::of(&root().join("out/web"));
     let mut page = Chromium::open(&server.address(""), true);
+    page.resize(1024, 768);
     page.wait("window.viewer && viewer.isSettled && viewer.drawn > 0");
     assert_eq!(page.number("viewer.frames"), 3.0);
     assert_eq!(page.text("viewer.problems.join()"), "");
@@ -161,6 +162,8 @@ fn the_camera_goes_by_mouse_keys_and_fingers(page: &mut Chromium) {
     page.touch(&[along(0.0), along(30.0), along(60.0), along(90.0)]);
     page.wait("viewer.isSettled");
     assert!(distance(camera(page, "target"), target) > 0.1);
+    // Fingers leave the page without the keys.
+    page.click(MIDDLE);
     page.key("f", 0, 30);
     page.wait("viewer.isSettled && !viewer.toml().includes('camera-eye')");
 }

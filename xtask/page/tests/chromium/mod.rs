@@ -71,6 +71,7 @@ pub struct Chromium {
     profile: PathBuf,
     socket: WebSocket<TcpStream>,
     messages: u64,
+    is_pressed: bool,
     errors: Vec<String>,
 }
 
@@ -107,7 +108,7 @@ impl Chromium {
         std::thread::spawn(move || log.read_to_end(&mut Vec::new()));
         let port: u16 = line.split("ws://").nth(1).unwrap().split(['/', ':']).nth(1).unwrap().parse().unwrap();
         let socket = connect(port);
-        let mut page = Self { process, profile, socket, messages: 0, errors: Vec::new() };
+        let mut page = Self { process, profile, socket, messages: 0, is_pressed: false, errors: Vec::new() };
         for domain in ["Runtime.enable", "Log.enable", "Page.enable"] {
             page.call(domain, json!({}));
         }
@@ -170,9 +171,9 @@ impl Chromium {
         self.wait_in_steps(condition, Duration::from_millis(100));
     }
 
-    /// The same to a few milliseconds.
+    /// The same to some milliseconds.
     pub fn wait_closely(&mut self, condition: &str) {
-        self.wait_in_steps(condition, Duration::from_millis(2));
+        self.wait_in_steps(condition, Duration::from_millis(10));
     }
 
     fn wait_in_steps(&mut self, condition: &str, step: Duration) {
@@ -226,8 +227,11 @@ impl Chromium {
     }
 
     pub fn mouse(&mut self, kind: &str, (x, y): (f64, f64)) {
-        let button = if kind == "Moved" { "none" } else { "left" };
-        let event = json!({ "type": format!("mouse{kind}"), "x": x, "y": y, "button": button, "clickCount": 1 });
+        self.is_pressed = kind == "Pressed" || kind == "Moved" && self.is_pressed;
+        let button = if kind == "Moved" && !self.is_pressed { "none" } else { "left" };
+        let buttons = u8::from(self.is_pressed);
+        let kind = format!("mouse{kind}");
+        let event = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
         self.call("Input.dispatchMouseEvent", event);
     }
 
