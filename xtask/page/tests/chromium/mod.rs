@@ -45,26 +45,6 @@ impl Drop for Server {
     }
 }
 
-/// Keeps what a page hands to the browser: devices asked for, files saved, text copied.
-const WATCH: &str = "
-    window.devices = [];
-    window.saved = [];
-    if (window.GPUAdapter) {
-        const ask = GPUAdapter.prototype.requestDevice;
-        GPUAdapter.prototype.requestDevice = async function (...how) {
-            const device = await ask.apply(this, how);
-            devices.push(device);
-            return device;
-        };
-    }
-    HTMLAnchorElement.prototype.click = function () {
-        const file = { name: this.download };
-        saved.push(file);
-        fetch(this.href).then((answer) => answer.text()).then((text) => { file.text = text; });
-    };
-    if (navigator.clipboard) navigator.clipboard.writeText = async (text) => { window.copied = text; };
-";
-
 /// A browser with one page.
 pub struct Chromium {
     process: Child,
@@ -112,7 +92,6 @@ impl Chromium {
         for domain in ["Runtime.enable", "Log.enable", "Page.enable"] {
             page.call(domain, json!({}));
         }
-        page.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": WATCH }));
         page.call("Page.navigate", json!({ "url": address }));
         page
     }
@@ -261,13 +240,6 @@ impl Chromium {
         self.run(&format!("new Promise((done) => setTimeout(done, {ms}))"));
     }
 
-    /// What is to be seen, controls and all.
-    pub fn screenshot(&mut self) -> image::RgbImage {
-        let packed = self.call("Page.captureScreenshot", json!({}));
-        let png = base64(packed["data"].as_str().unwrap());
-        image::load_from_memory(&png).unwrap().to_rgb8()
-    }
-
     pub fn resize(&mut self, width: u32, height: u32) {
         let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", size);
@@ -291,22 +263,6 @@ fn program() -> &'static str {
         |name: &&&str| Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
     let names = ["chromium", "chromium-browser", "google-chrome"];
     names.iter().find(runs).expect("there is no Chromium: apt-get install chromium")
-}
-
-fn base64(text: &str) -> Vec<u8> {
-    let value = |c: u8| match c {
-        b'A'..=b'Z' => c - b'A',
-        b'a'..=b'z' => c - b'a' + 26,
-        b'0'..=b'9' => c - b'0' + 52,
-        b'+' => 62,
-        _ => 63,
-    };
-    let digits: Vec<u8> = text.bytes().filter(|c| *c != b'=').map(value).collect();
-    let bytes = |four: &[u8]| {
-        let bits = four.iter().fold(0u32, |bits, digit| bits << 6 | u32::from(*digit)) << (6 * (4 - four.len()));
-        bits.to_be_bytes()[1..four.len()].to_vec()
-    };
-    digits.chunks(4).flat_map(bytes).collect()
 }
 
 /// Finds the page by the browser's list of them.
