@@ -184,6 +184,10 @@ fn files_can_be_dropped(page: &mut Chromium) {
     page.wait("viewer.problems.join().includes('broken.bgeo')");
     page.run(&drop("dam.bgeo", "await (await fetch('data/dam_break_20.bgeo')).arrayBuffer()"));
     page.wait("viewer.isSettled && viewer.particles === 24360");
+    page.run(&drop("shot.toml", "'size = \"300x200\"\\nlook = \"milk\"\\n'"));
+    page.wait("viewer.isSettled && viewer.toml().includes('300x200') && viewer.toml().includes('milk')");
+    page.run(&drop("odd.toml", "'look = 7'"));
+    page.wait("viewer.problems.join().includes('odd.toml')");
 }
 
 fn a_window_can_be_tiny(page: &mut Chromium) {
