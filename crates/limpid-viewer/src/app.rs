@@ -372,9 +372,6 @@ impl Viewer {
             self.pace.change();
         }
         if self.pace.is_drawing(&self.gpu.device) {
-            // Native devices must be asked.
-            #[cfg(not(target_arch = "wasm32"))]
-            ctx.request_repaint_after(std::time::Duration::from_millis(4));
             return None;
         }
         let moving = if wanted.options.show.is_some() { Grade::Whole } else { self.pace.moving() };
@@ -926,6 +923,11 @@ impl eframe::App for Viewer {
         self.report();
         if self.wants_picture || self.frames.as_ref().is_some_and(Frames::is_reading) {
             ui.ctx().request_repaint();
+        }
+        // Native devices say that they are done only when they are asked.
+        #[cfg(not(target_arch = "wasm32"))]
+        if self.pace.is_drawing(&self.gpu.device) {
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(4));
         }
         crate::show_address(&self.desk);
     }
