@@ -11,12 +11,13 @@
 // dispatches:
 //   1. `eliminate` goes forward through each segment: d_i = constant + previous d_P + next d_i+1, where d_P is the last
 //      pixel before the segment, and keeps its ends in terms of d_P and the first pixel after it (`Piece`);
-//   2. `substitute` solves for these two, and goes backward.
+//   2. `substitute` solves for these two, and goes backward. The relation that it finds is one of values, not of changes,
+//      which spares it a look at what was there: u_i + d_i = [u_i + constant - next u_i+1] + previous d_P + next (u_i+1 + d_i+1).
 
 @group(1) @binding(0) var<storage, read> occupied: array<u32>; // for each tile, in rows
 @group(1) @binding(1) var<storage, read> segments: Segments;
 @group(1) @binding(2) var<storage, read> input: array<f32>;
-@group(1) @binding(3) var<storage, read_write> output: array<f32>; // eliminated constants, then the result
+@group(1) @binding(3) var<storage, read_write> output: array<f32>; // the relations' brackets, then the result
 @group(1) @binding(4) var<storage, read_write> factors: array<u32>; // a relation's previous and next, 16 bits each
 @group(1) @binding(5) var<storage, read_write> pieces: array<Piece>; // of all segments, see `piece_slot`
 @group(1) @binding(6) var<storage, read> lengths: array<f32>; // smoothing lengths, breadth.wgsl's
@@ -88,9 +89,18 @@ struct Share {
 
 // Whether there is a tile at `begin` in this share, and no fluid in it.
 fn is_empty(share: Share, begin: i32) -> bool {
+    return (begin >= share.begin) & (begin < share.end) & !has_fluid(share, begin);
+}
+
+// Whether there is one, with fluid.
+fn is_full(share: Share, begin: i32) -> bool {
+    return (begin < share.end) & has_fluid(share, begin);
+}
+
+fn has_fluid(share: Share, begin: i32) -> bool {
     let tile = vec2u(share.origin + begin * share.axis) / TILE;
     let index = min(tile.y * ((view.size.x + TILE - 1u) / TILE) + tile.x, arrayLength(&occupied) - 1u);
-    return (begin >= share.begin) & (begin < share.end) & (occupied[index] == 0u);
+    return occupied[index] != 0u;
 }
 
 // A pixel on a line, its normal, and whether the next one is of its sheet.
@@ -141,6 +151,10 @@ fn eliminate(share: Share) -> Piece {
         if begin >= share.end {
             break;
         }
+        var end = min(begin + i32(TILE), share.end);
+        while is_full(share, end) {
+            end = min(end + i32(TILE), share.end);
+        }
         var ahead = along(share, begin + 1);
         let center = along(share, begin);
         let before = along(share, begin - 1);
@@ -148,8 +162,7 @@ fn eliminate(share: Share) -> Piece {
         let last = line_pixel(share, begin - 1, far_before, before, center, is_sheet(far_before, before, sheet_step()));
         var here = line_pixel(share, begin, before, center, ahead, last.has_next);
         var behind = link_ahead(share, begin - 1, last, here);
-        let pixels = min(i32(TILE), share.end - begin);
-        for (var i = begin; i < begin + pixels; i++) {
+        for (var i = begin; i < end; i++) {
             let at = share.origin + i * share.axis;
             let index = pixel_index(at);
             let far_ahead = along(share, i + 2);
@@ -157,14 +170,15 @@ fn eliminate(share: Share) -> Piece {
             let after = link_ahead(share, i, here, next);
             let change = dot(mobility(at, here.nearness), vec2f(share.axis));
             relation = follow(relation, change * behind.j, change * after.j, change * (after.flux - behind.flux));
-            output[index] = relation.x;
-            factors[index] = pack2x16unorm(relation.yz);
+            let packed = pack2x16unorm(relation.yz);
+            factors[index] = packed;
+            output[index] = here.nearness + relation.x - unpack2x16unorm(packed).y * ahead;
             first = vec3f(first.xy, 0.0) + first.z * relation;
             here = next;
             ahead = far_ahead;
             behind = after;
         }
-        begin += i32(TILE);
+        begin = end;
     }
     return Piece(first, relation);
 }
@@ -202,7 +216,8 @@ fn solve_ends(share: Share) -> vec2f {
 // Step 2.
 fn substitute(share: Share) {
     let ends = solve_ends(share);
-    var change = ends.y;
+    // Nearness after the step of the pixel after this one.
+    var next = along(share, share.end) + ends.y;
     var begin = (share.end - 1) / i32(TILE) * i32(TILE);
     loop {
         while is_empty(share, begin) {
@@ -213,8 +228,8 @@ fn substitute(share: Share) {
         }
         for (var i = min(begin + i32(TILE), share.end) - 1; i >= begin; i--) {
             let index = pixel_index(share.origin + i * share.axis);
-            change = output[index] + dot(unpack2x16unorm(factors[index]), vec2f(ends.x, change));
-            output[index] = input[index] + change;
+            next = output[index] + dot(unpack2x16unorm(factors[index]), vec2f(ends.x, next));
+            output[index] = next;
         }
         begin -= i32(TILE);
     }
