@@ -156,12 +156,16 @@ fn the_camera_goes_by_fingers(page: &mut Chromium) {
     page.wait("viewer.isSettled");
     let near = from_target(page);
     assert!(near < 0.8 * far, "{near} of {far}");
-    // Two fingers: across.
+    // Two fingers: across. Not at once, which the page takes for a double tap.
+    page.pause(1000);
     let target = camera(page, "target");
     let along = |way: f64| [(x - 40.0 + way, y), (x + 40.0 + way, y)];
     page.touch(&[along(0.0), along(30.0), along(60.0), along(90.0)]);
     page.wait("viewer.isSettled");
-    assert!(distance(camera(page, "target"), target) > 0.1);
+    let moved = camera(page, "target");
+    // At least one of the three steps: those that come while a picture is drawn may be lost.
+    assert!(distance(moved, target) > 0.05, "from {target:?} to {moved:?}");
+    assert!((from_target(page) - near).abs() < 0.01 * near);
 }
 
 /// A script that drops a file on the page.

@@ -224,6 +224,7 @@ impl Chromium {
             self.pause(60);
         }
         self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+        self.pause(60);
     }
 
     /// A key held for so long; `modifiers` as the protocol counts them: 2 is Ctrl, 8 Shift.
@@ -236,8 +237,10 @@ impl Chromium {
         }
     }
 
+    /// So long, and until the page has drawn: what comes within one of its frames it sees as one.
     pub fn pause(&mut self, ms: u64) {
-        self.run(&format!("new Promise((done) => setTimeout(done, {ms}))"));
+        let frames = "requestAnimationFrame(() => requestAnimationFrame(done))";
+        self.run(&format!("new Promise((done) => setTimeout(() => {frames}, {ms}))"));
     }
 
     pub fn resize(&mut self, width: u32, height: u32) {
