@@ -139,11 +139,30 @@ impl From<io::Error> for Fault {
     /// Errors that the contents cause (a short file, a damaged gzip stream) are the file's fault, not the system's.
     fn from(error: io::Error) -> Self {
         match error.kind() {
+            _ if let Some(problem) = error.get_ref().and_then(|inner| inner.downcast_ref::<Problem>()) => {
+                Self::Broken(problem.0.clone())
+            }
             io::ErrorKind::UnexpectedEof => Self::Broken("it ends too early".into()),
             io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput => {
                 Self::Broken("its compressed data is damaged".into())
             }
             _ => Self::Io(error),
+        }
+    }
+}
+
+/// A [`Fault`] on its way through a stream.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Problem(String);
+
+impl From<Fault> for io::Error {
+    fn from(fault: Fault) -> Self {
+        match fault {
+            Fault::Io(error) => error,
+            Fault::Broken(problem) | Fault::Unsupported { what: problem, .. } => {
+                Self::new(io::ErrorKind::InvalidData, Problem(problem))
+            }
         }
     }
 }

@@ -2,21 +2,25 @@
 //!
 //! Whatever a header claims is checked against the file's size before memory is reserved for it.
 
+mod buffer;
+
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::path::Path;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use flate2::read::GzDecoder;
 
 use crate::error::{Fault, broken, quote};
+use buffer::Buffer;
 
 const BUFFER: usize = 1 << 17;
 /// Twice the buffer: what is left of a block once the buffer is empty goes past it, from the file into the block.
 const BLOCK: usize = 2 * BUFFER;
 const HEAD: usize = 64;
 const LONGEST_LINE: usize = 1 << 16;
-const LONGEST_WORD: usize = 1 << 10;
+pub(crate) const LONGEST_WORD: usize = 1 << 10;
 
 /// Deflate cannot pack tighter than this.
 const GZIP_RATIO: u64 = 1032;
@@ -24,13 +28,22 @@ const GZIP_RATIO: u64 = 1032;
 /// Records reserved for at once where only reading on tells how many there are.
 const FIRST_RECORDS: usize = 1 << 14;
 
+/// What can be read at any place.
+pub(crate) trait Seekable: Read + Seek {}
+
+impl<T: Read + Seek> Seekable for T {}
+
 pub(crate) struct Input<'a> {
-    reader: BufReader<Box<dyn Read + 'a>>,
+    reader: Buffer<Box<dyn Read + 'a>>,
     head: Vec<u8>,
     gzipped: bool,
-    /// Bytes still to come: exact for a plain file, an upper bound for a gzipped one.
+    /// Whether as many bytes follow as `left` says, so that memory may be reserved for them.
+    exact: bool,
+    /// Bytes still to come, or an upper bound.
     left: u64,
     word: Vec<u8>,
+    /// The file once more, unless it must be unpacked.
+    whole: Option<Box<dyn Seekable>>,
 }
 
 impl Input<'static> {
@@ -40,11 +53,16 @@ impl Input<'static> {
             return Err(io::ErrorKind::IsADirectory.into());
         }
         let size = file.metadata()?.len();
-        Self::of(Box::new(file), size)
+        Self::of(file.try_clone()?, file, size)
     }
 
-    /// A file of `size` bytes, wherever it comes from.
-    pub fn of(file: Box<dyn Read>, size: u64) -> io::Result<Self> {
+    /// A file that is in memory.
+    pub fn of_bytes(bytes: Arc<[u8]>) -> io::Result<Self> {
+        let size = bytes.len() as u64;
+        Self::of(Cursor::new(Arc::clone(&bytes)), Cursor::new(bytes), size)
+    }
+
+    fn of(whole: impl Seekable + 'static, file: impl Read + 'static, size: u64) -> io::Result<Self> {
         let mut file = BufReader::with_capacity(BUFFER, file);
         let gzipped = file.fill_buf()?.starts_with(&[0x1f, 0x8b]);
         let mut stream: Box<dyn Read> = if gzipped { Box::new(GzDecoder::new(file)) } else { Box::new(file) };
@@ -54,17 +72,34 @@ impl Input<'static> {
         if !gzipped {
             opening?;
         }
-        let reader = BufReader::with_capacity(BUFFER, Box::new(io::Cursor::new(head.clone()).chain(stream)) as Box<_>);
+        let reader = Buffer::new(BUFFER, Box::new(Cursor::new(head.clone()).chain(stream)) as Box<_>);
         let left = if gzipped { size.saturating_mul(GZIP_RATIO) } else { size };
-        Ok(Self { reader, head, gzipped, left, word: Vec::new() })
+        let whole = (!gzipped).then(|| Box::new(whole) as Box<_>);
+        Ok(Self { reader, head, gzipped, exact: !gzipped, left, word: Vec::new(), whole })
     }
 }
 
 impl<'a> Input<'a> {
     /// Bytes from elsewhere, at most so many, as a stream: what is claimed is checked against that.
-    pub fn of_stream(stream: Box<dyn Read + 'a>, most: u64) -> Self {
-        let reader = BufReader::with_capacity(BUFFER, stream);
-        Self { reader, head: Vec::new(), gzipped: true, left: most, word: Vec::new() }
+    pub fn of_stream(stream: impl Read + 'a, most: u64) -> Self {
+        let reader = Buffer::new(BUFFER, Box::new(stream) as Box<_>);
+        Self { reader, head: Vec::new(), gzipped: false, exact: false, left: most, word: Vec::new(), whole: None }
+    }
+
+    /// The same where so many bytes are known to be there: memory for them is reserved at once.
+    pub fn of_whole_stream(stream: impl Read + 'a, length: u64) -> Self {
+        Self { exact: true, ..Self::of_stream(stream, length) }
+    }
+
+    /// The whole file from its beginning, to be read at any place; in memory if it has to be unpacked.
+    pub fn whole(&mut self) -> Result<Box<dyn Seekable>, Fault> {
+        if let Some(mut whole) = self.whole.take() {
+            whole.rewind()?;
+            return Ok(whole);
+        }
+        let mut bytes = Vec::new();
+        self.reader.read_to_end(&mut bytes)?;
+        Ok(Box::new(Cursor::new(bytes)))
     }
 
     /// The first bytes, for telling the format.
@@ -74,6 +109,11 @@ impl<'a> Input<'a> {
 
     pub fn is_gzipped(&self) -> bool {
         self.gzipped
+    }
+
+    /// Whether the bytes that are still to come are as many as is said.
+    pub fn is_exact(&self) -> bool {
+        self.exact
     }
 
     /// Bytes that are still to come, at most.
@@ -86,7 +126,7 @@ impl<'a> Input<'a> {
         match count.checked_mul(size as u64) {
             Some(bytes) if bytes <= self.left => {
                 let count = count as usize;
-                Ok(if self.gzipped { count.min(FIRST_RECORDS) } else { count })
+                Ok(if self.exact { count } else { count.min(FIRST_RECORDS) })
             }
             _ => broken!("it claims {count} records of {size} bytes or more where only {} bytes follow", self.left),
         }
@@ -101,7 +141,12 @@ impl<'a> Input<'a> {
         }
     }
 
-    fn consume(&mut self, bytes: usize) {
+    /// The next bytes: at least so many, or all that there are.
+    pub fn peek(&mut self, wanted: usize) -> Result<&[u8], Fault> {
+        Ok(self.reader.peek(wanted)?)
+    }
+
+    pub fn consume(&mut self, bytes: usize) {
         self.reader.consume(bytes);
         self.left = self.left.saturating_sub(bytes as u64);
     }
@@ -155,7 +200,10 @@ impl<'a> Input<'a> {
     /// Decodes `count` records of `N` bytes straight into their final array.
     pub fn records<const N: usize, T>(&mut self, count: u64, decode: impl Fn(&[u8; N]) -> T) -> Result<Vec<T>, Fault> {
         let mut records = Vec::with_capacity(self.claim(count, N)?);
-        self.blocks(count, N, |block| records.extend(block.as_chunks().0.iter().map(&decode)))?;
+        self.blocks(count, N, |block| {
+            grow(&mut records, block.len() / N, count as usize);
+            records.extend(block.as_chunks().0.iter().map(&decode));
+        })?;
         Ok(records)
     }
 
@@ -189,6 +237,35 @@ impl<'a> Input<'a> {
         }
     }
 
+    /// Passes over what is before the next such byte; false if there is none.
+    pub fn skip_to(&mut self, byte: u8) -> Result<bool, Fault> {
+        loop {
+            let buffer = self.reader.fill_buf()?;
+            let (at, length) = (buffer.iter().position(|other| *other == byte), buffer.len());
+            self.consume(at.unwrap_or(length));
+            if at.is_some() || length == 0 {
+                return Ok(at.is_some());
+            }
+        }
+    }
+
+    /// Appends everything through the next such byte; false if there is none.
+    pub fn through(&mut self, byte: u8, text: &mut Vec<u8>, longest: usize) -> Result<bool, Fault> {
+        loop {
+            let buffer = self.reader.fill_buf()?;
+            let end = buffer.iter().position(|other| *other == byte).map(|at| at + 1);
+            let length = end.unwrap_or(buffer.len());
+            text.extend_from_slice(&buffer[..length]);
+            self.consume(length);
+            if text.len() > longest {
+                return broken!("a piece of its text is longer than {longest} bytes: {}", quote(text));
+            }
+            if end.is_some() || length == 0 {
+                return Ok(end.is_some());
+            }
+        }
+    }
+
     /// The next word between spaces or line ends.
     pub fn word(&mut self) -> Result<&[u8], Fault> {
         self.word.clear();
@@ -217,19 +294,33 @@ impl<'a> Input<'a> {
         if self.word.is_empty() { broken!("it ends too early") } else { Ok(&self.word) }
     }
 
-    /// Everything that is left, in memory.
-    pub fn all(&mut self) -> Result<Vec<u8>, Fault> {
-        let mut bytes = Vec::new();
-        if !self.gzipped {
-            bytes.reserve_exact(self.left as usize);
+    /// The next byte that is no space, which is left to be read.
+    pub fn after_space(&mut self) -> Result<Option<u8>, Fault> {
+        loop {
+            let buffer = self.reader.fill_buf()?;
+            let (at, length) = (buffer.iter().position(|byte| !byte.is_ascii_whitespace()), buffer.len());
+            let found = at.map(|at| buffer[at]);
+            self.consume(at.unwrap_or(length));
+            if found.is_some() || length == 0 {
+                return Ok(found);
+            }
         }
-        self.reader.read_to_end(&mut bytes)?;
-        Ok(bytes)
     }
+}
 
-    /// Everything that is left, for formats whose text another crate parses.
-    pub fn rest(&mut self) -> impl Read {
-        &mut self.reader
+impl Read for Input<'_> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        let count = self.reader.read(to)?;
+        self.left = self.left.saturating_sub(count as u64);
+        Ok(count)
+    }
+}
+
+/// Makes room for more records: twice as much as there was, but never for more than `most`, where a growing array would go beyond.
+pub(crate) fn grow<T>(records: &mut Vec<T>, more: usize, most: usize) {
+    let wanted = records.len() + more;
+    if wanted > records.capacity() {
+        records.reserve_exact((2 * records.capacity()).min(most).max(wanted) - records.len());
     }
 }
 

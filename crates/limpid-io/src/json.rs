@@ -12,7 +12,7 @@ use crate::{Attribute, Values};
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let first = input.head().iter().find(|byte| !byte.is_ascii_whitespace());
-    if first == Some(&b'{') { read_object(input.rest()) } else { read_array(input.rest()) }
+    if first == Some(&b'{') { read_object(input) } else { read_array(input) }
 }
 
 fn read_array(text: impl Read) -> Result<Raw, Fault> {

@@ -14,6 +14,8 @@ mod json;
 mod names;
 mod npy;
 mod npz;
+mod number;
+mod parallel;
 mod particles;
 mod ply;
 mod pos;
@@ -24,11 +26,12 @@ mod select;
 mod sequence;
 mod spacing;
 mod table;
+mod text;
 mod values;
 mod vtk;
 mod vtk_xml;
 
-use std::io::{self, Cursor};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -56,8 +59,7 @@ pub fn read_bare(path: &Path, numbers: Bare) -> Result<ParticleSet, ReadError> {
 
 /// [`read`] for a file that is in memory already, such as one dropped on a web page.
 pub fn read_bytes(path: &Path, bytes: Arc<[u8]>) -> Result<ParticleSet, ReadError> {
-    let size = bytes.len() as u64;
-    of_input(path, input::Input::of(Box::new(Cursor::new(bytes)), size))
+    of_input(path, input::Input::of_bytes(bytes))
 }
 
 fn of_input(path: &Path, input: io::Result<input::Input<'_>>) -> Result<ParticleSet, ReadError> {

@@ -1,9 +1,9 @@
 //! NPZ: NumPy arrays by name in a zip archive, as `numpy.savez` and PySPH write them. Positions are an array of x, y and z, or three
 //! arrays named so; all that has a row for each particle is an attribute.
 
-use std::io::{Cursor, Read};
+use std::io::{BufReader, Read};
 
-use zip::ZipArchive;
+use zip::{CompressionMethod, ZipArchive};
 
 use crate::error::{Fault, broken, quote};
 use crate::input::Input;
@@ -17,7 +17,8 @@ pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
 const MOST_ARRAYS: usize = 4096;
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
-    let mut archive = match ZipArchive::new(Cursor::new(input.all()?)) {
+    let length = input.left();
+    let mut archive = match ZipArchive::new(BufReader::new(input.whole()?)) {
         Ok(archive) => archive,
         Err(_) => return broken!("its archive is damaged"),
     };
@@ -32,10 +33,14 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
             Err(_) => return broken!("its archive is damaged"),
         };
         let Ok(Some(name)) = entry.name().map(|name| name.strip_suffix(".npy").map(str::to_owned)) else { continue };
-        // What an entry claims to unpack to bounds what is reserved for it; it is read no farther.
+        // What an entry claims to unpack to bounds how far it is read; memory is reserved only for what lies there as it is.
         let size = entry.size();
-        let mut array = Input::of_stream(Box::new((&mut entry).take(size)), size);
-        if array.bytes().ok().as_ref() != Some(npy::MAGIC) {
+        let is_bare =
+            entry.compression() == CompressionMethod::Stored && entry.compressed_size() == size && size <= length;
+        let stream = (&mut entry).take(size);
+        let mut array = if is_bare { Input::of_whole_stream(stream, size) } else { Input::of_stream(stream, size) };
+        let mut mark = [0; npy::MAGIC.len()];
+        if array.exact(&mut mark).is_err() || mark != *npy::MAGIC {
             return broken!("array {} is none of NumPy's", quote(name.as_bytes()));
         }
         match npy::read_array(&mut array) {

@@ -155,11 +155,14 @@ fn read_vertices(input: &mut Input, encoding: Encoding, vertex: Element) -> Resu
         Encoding::Ascii => input.claim_words(count.saturating_mul(properties.len() as u64))?.min(count as usize),
         _ => input.claim(count, properties.iter().map(|p| p.list.unwrap_or(p.scalar).size()).sum())?,
     };
-    let is_packed = encoding != Encoding::Ascii && properties.iter().all(|property| property.list.is_none());
-    let (positions, mut attributes) = if is_packed {
-        read_records(input, encoding, count, capacity, properties)?
-    } else {
-        (None, read_values(input, encoding, count, capacity, properties)?)
+    let has_lists = properties.iter().any(|property| property.list.is_some());
+    let (positions, mut attributes) = match encoding {
+        _ if has_lists => (None, read_values(input, encoding, count, capacity, properties)?),
+        Encoding::Ascii => {
+            let columns: Vec<Scalar> = properties.iter().map(|property| property.scalar).collect();
+            (None, named(properties, input.columns(&columns, count)?))
+        }
+        _ => read_records(input, encoding, count, capacity, properties)?,
     };
     let Some(positions) = positions.or_else(|| names::take_positions(&mut attributes)) else {
         return broken!("its element \"vertex\" has no x, y and z");
@@ -190,8 +193,13 @@ fn read_values(
             }
         }
     }
+    Ok(named(properties, arrays))
+}
+
+/// The values of the scalar properties with their names.
+fn named(properties: Vec<Property>, arrays: Vec<Values>) -> Vec<Attribute> {
     let names = properties.into_iter().filter(|property| property.list.is_none()).map(|property| property.name);
-    Ok(names.zip(arrays).map(|(name, values)| Attribute { name, components: 1, values }).collect())
+    names.zip(arrays).map(|(name, values)| Attribute { name, components: 1, values }).collect()
 }
 
 /// The properties of records of one size. Vectors whose components follow each other, as they do in most files, are taken whole;

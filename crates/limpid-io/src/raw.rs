@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use bytemuck::Pod;
+use bytemuck::allocation::try_cast_vec;
+
 use crate::error::ReadError;
 use crate::names;
 use crate::{Attribute, Format, ParticleSet, Values};
@@ -67,8 +70,8 @@ impl Positions {
     /// Splits an array of x y z x y z.
     pub fn from_triples(triples: Values) -> Self {
         match triples {
-            Values::F32(triples) => Self::F32(triples.as_chunks().0.to_vec()),
-            triples => Self::F64(into_f64(triples).as_chunks().0.to_vec()),
+            Values::F32(numbers) => Self::F32(in_threes(numbers)),
+            numbers => Self::F64(in_threes(into_f64(numbers))),
         }
     }
 
@@ -82,6 +85,14 @@ impl Positions {
             }
         }
     }
+}
+
+/// The same numbers three by three, in the same memory.
+fn in_threes<T: Pod>(mut numbers: Vec<T>) -> Vec<[T; 3]> {
+    numbers.truncate(numbers.len() / 3 * 3);
+    numbers.shrink_to_fit();
+    // An allocator may leave more room than it was asked for.
+    try_cast_vec(numbers).unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec())
 }
 
 /// Three columns as rows.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::error::{Fault, broken};
-use crate::input::{Input, parse};
+use crate::input::{self, Input, parse};
 
 /// The numbers of an attribute, one particle after the other, in a type that holds what the file has exactly.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,17 @@ impl Values {
             _ => return broken!("an array has another type in each of its pieces"),
         }
         Ok(())
+    }
+
+    /// Makes room for more numbers, of at most so many in all.
+    pub(crate) fn grow(&mut self, more: usize, most: usize) {
+        match self {
+            Self::U8(array) => input::grow(array, more, most),
+            Self::I32(array) => input::grow(array, more, most),
+            Self::I64(array) => input::grow(array, more, most),
+            Self::F32(array) => input::grow(array, more, most),
+            Self::F64(array) => input::grow(array, more, most),
+        }
     }
 
     /// True if there are none.
@@ -203,24 +214,23 @@ impl Input<'_> {
     /// An array of `count` numbers.
     pub fn values(&mut self, scalar: Scalar, encoding: Encoding, count: u64) -> Result<Values, Fault> {
         if encoding == Encoding::Ascii {
-            let mut values = scalar.array(self.claim_words(count)?);
-            for _ in 0..count {
-                values.push_word(self.word()?)?;
-            }
-            return Ok(values);
+            let mut columns = self.columns(&[scalar], count)?;
+            return Ok(columns.swap_remove(0));
         }
         let mut values = scalar.array(self.claim(count, scalar.size())?);
         let slot = Slot { scalar, components: 1, offset: 0 };
         let size = scalar.size();
-        self.blocks(count, size, |block| values.extend_from_records(block, size, slot, encoding))?;
+        self.blocks(count, size, |block| {
+            values.grow(block.len() / size, count as usize);
+            values.extend_from_records(block, size, slot, encoding);
+        })?;
         Ok(values)
     }
 
     /// Passes over an array of `count` numbers.
     pub fn skip_values(&mut self, scalar: Scalar, encoding: Encoding, count: u64) -> Result<(), Fault> {
         if encoding == Encoding::Ascii {
-            self.claim_words(count)?;
-            return (0..count).try_for_each(|_| self.word().map(drop));
+            return self.skip_words(count);
         }
         self.claim(count, scalar.size())?;
         self.skip(count * scalar.size() as u64)

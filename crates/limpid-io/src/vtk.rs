@@ -152,21 +152,9 @@ impl Reader<'_, '_> {
         if self.positions.is_some() {
             return broken!("it has POINTS twice");
         }
-        let big = self.encoding == Encoding::Big;
-        self.positions = Some(match kind {
-            Type::Number(Scalar::F32) if big => Positions::F32(self.input.records(count, |bytes: &[u8; 12]| {
-                let numbers = bytes.as_chunks().0;
-                [0, 1, 2].map(|axis| f32::from_be_bytes(numbers[axis]))
-            })?),
-            Type::Number(Scalar::F64) if big => Positions::F64(self.input.records(count, |bytes: &[u8; 24]| {
-                let numbers = bytes.as_chunks().0;
-                [0, 1, 2].map(|axis| f64::from_be_bytes(numbers[axis]))
-            })?),
-            Type::Number(scalar) => {
-                Positions::from_triples(self.input.values(scalar, self.encoding, times(count, 3)?)?)
-            }
-            Type::Bit | Type::String => return broken!("its POINTS are not numbers"),
-        });
+        let Type::Number(scalar) = kind else { return broken!("its POINTS are not numbers") };
+        let values = self.input.values(scalar, self.encoding, times(count, 3)?)?;
+        self.positions = Some(Positions::from_triples(values));
         Ok(())
     }
 

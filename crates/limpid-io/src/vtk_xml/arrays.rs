@@ -1,30 +1,37 @@
 //! A DataArray: its type, where its numbers are, and the numbers.
 
-use roxmltree::Node;
+use std::io::{self, Read};
 
 use super::payload::Layout;
+use super::tags::Tag;
 use crate::Values;
 use crate::error::{Fault, broken, quote};
-use crate::values::{Scalar, Slot};
+use crate::input::Input;
+use crate::values::{Encoding, Scalar};
 
-/// Numbers reserved for at once where only reading on tells how many there are.
-const FIRST_NUMBERS: usize = 1 << 14;
+/// More numbers for each point than any solver writes.
+const MOST_COMPONENTS: u64 = 64;
 
-pub(super) struct Array<'a> {
+/// What a DataArray's tag says.
+pub(super) struct Array {
+    pub name: String,
     /// None: no numbers.
-    scalar: Option<Scalar>,
-    place: Place<'a>,
+    pub scalar: Option<Scalar>,
+    pub components: u64,
+    pub place: Place,
 }
 
-enum Place<'a> {
-    Ascii(&'a str),
-    Inline(&'a str),
+#[derive(Clone, Copy)]
+pub(super) enum Place {
+    Ascii,
+    Inline,
+    /// So many bytes after the first appended one.
     Appended(u64),
 }
 
-impl<'a> Array<'a> {
-    pub fn of(node: &Node<'a, '_>) -> Result<Self, Fault> {
-        let scalar = match node.attribute("type").unwrap_or_default() {
+impl Array {
+    pub fn of(tag: &Tag) -> Result<Self, Fault> {
+        let scalar = match tag.attribute("type").unwrap_or_default() {
             "Int8" => Some(Scalar::I8),
             "UInt8" => Some(Scalar::U8),
             "Int16" => Some(Scalar::I16),
@@ -38,52 +45,61 @@ impl<'a> Array<'a> {
             "String" | "Bit" => None,
             other => return broken!("{} is not a number type", quote(other.as_bytes())),
         };
-        let place = match node.attribute("format").unwrap_or("ascii") {
-            "ascii" => Place::Ascii(node.text().unwrap_or_default()),
-            "binary" => Place::Inline(node.text().unwrap_or_default()),
-            "appended" => match node.attribute("offset").map(|offset| offset.trim().parse()) {
+        let name = tag.attribute("Name").unwrap_or_default().to_owned();
+        let components = match tag.attribute("NumberOfComponents").unwrap_or_default() {
+            "" => 1,
+            text => match text.parse() {
+                Ok(components @ 1..=MOST_COMPONENTS) => components,
+                _ => return broken!("array {} has {} components", quote(name.as_bytes()), quote(text.as_bytes())),
+            },
+        };
+        let place = match tag.attribute("format").unwrap_or("ascii") {
+            "ascii" => Place::Ascii,
+            "binary" => Place::Inline,
+            "appended" => match tag.attribute("offset").map(str::parse) {
                 Some(Ok(offset)) => Place::Appended(offset),
                 _ => return broken!("an appended array has no offset"),
             },
             other => return broken!("{} is no format of an array", quote(other.as_bytes())),
         };
-        Ok(Self { scalar, place })
+        Ok(Self { name, scalar, components, place })
     }
 
-    pub fn is_numbers(&self) -> bool {
-        self.scalar.is_some()
-    }
-
-    /// The numbers, `components` for each of `count` points.
-    pub fn read(&self, layout: &Layout<'_>, components: u64, count: u64) -> Result<Values, Fault> {
+    /// The type of the numbers, and how many there are for `points` of them.
+    pub fn size(&self, points: u64) -> Result<(Scalar, u64), Fault> {
         let Some(scalar) = self.scalar else { return broken!("an array that must hold numbers holds none") };
-        let Some(numbers) = count.checked_mul(components) else {
-            return broken!("it claims {count} times {components} numbers");
-        };
-        let bytes = match self.place {
-            Place::Ascii(text) => return ascii(text, scalar, numbers),
-            Place::Inline(text) => layout.inline(text, numbers.saturating_mul(scalar.size() as u64))?,
-            Place::Appended(offset) => layout.appended(offset, numbers.saturating_mul(scalar.size() as u64))?,
-        };
-        let mut values = scalar.array(numbers as usize);
-        let slot = Slot { scalar, components: 1, offset: 0 };
-        values.extend_from_records(&bytes, scalar.size(), slot, layout.encoding);
-        Ok(values)
+        match points.checked_mul(self.components) {
+            Some(count) => Ok((scalar, count)),
+            None => broken!("it claims {points} times {} numbers", self.components),
+        }
+    }
+
+    /// The numbers, where they follow the tag.
+    pub fn read(&self, input: &mut Input, layout: &Layout, points: u64) -> Result<Values, Fault> {
+        let (scalar, count) = self.size(points)?;
+        if !matches!(self.place, Place::Ascii) {
+            return layout.base64(input, scalar, count);
+        }
+        let most = input.left();
+        let mut text = Input::of_stream(Text(input), most);
+        let values = text.values(scalar, Encoding::Ascii, count)?;
+        match text.after_space()? {
+            None => Ok(values),
+            Some(_) => broken!("an array has more than {count} numbers"),
+        }
     }
 }
 
-fn ascii(text: &str, scalar: Scalar, numbers: u64) -> Result<Values, Fault> {
-    let mut values = scalar.array((numbers as usize).min(FIRST_NUMBERS));
-    let mut found = 0u64;
-    for word in text.split_ascii_whitespace() {
-        found += 1;
-        if found > numbers {
-            break;
-        }
-        values.push_word(word.as_bytes())?;
+/// What is before the next tag.
+struct Text<'a, 'b>(&'a mut Input<'b>);
+
+impl Read for Text<'_, '_> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        let text = self.0.peek(1)?;
+        let text = &text[..text.len().min(to.len())];
+        let length = text.iter().position(|byte| *byte == b'<').unwrap_or(text.len());
+        to[..length].copy_from_slice(&text[..length]);
+        self.0.consume(length);
+        Ok(length)
     }
-    if found != numbers {
-        return broken!("an array has {} {numbers} numbers", if found > numbers { "more than" } else { "fewer than" });
-    }
-    Ok(values)
 }

@@ -3,8 +3,11 @@
 
 use std::io::{self, Read};
 
-pub(super) struct Base64<'a> {
-    text: &'a [u8],
+use crate::error::Fault;
+use crate::input::Input;
+
+pub(super) struct Base64<'a, 'b> {
+    text: &'a mut Input<'b>,
     /// Decoded and not yet given, the next last.
     ready: Vec<u8>,
 }
@@ -21,15 +24,16 @@ const VALUES: [u8; 256] = {
     values
 };
 
-impl<'a> Base64<'a> {
-    pub fn new(text: &'a [u8]) -> Self {
+impl<'a, 'b> Base64<'a, 'b> {
+    pub fn new(text: &'a mut Input<'b>) -> Self {
         Self { text, ready: Vec::with_capacity(3) }
     }
 
     /// Decodes as long as four characters at a time are neither padding nor space, as nearly all are; how many bytes.
-    fn run(&mut self, buffer: &mut [u8]) -> usize {
+    fn run(&mut self, bytes: &mut [u8]) -> Result<usize, Fault> {
+        let text = self.text.peek(1)?;
         let mut filled = 0;
-        for (bytes, quad) in buffer.as_chunks_mut::<3>().0.iter_mut().zip(self.text.as_chunks::<4>().0) {
+        for (bytes, quad) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(text.as_chunks::<4>().0) {
             let [a, b, c, d] = quad.map(|byte| u32::from(VALUES[byte as usize]));
             if (a | b | c | d) > 63 {
                 break;
@@ -38,31 +42,38 @@ impl<'a> Base64<'a> {
             *bytes = decoded;
             filled += 3;
         }
-        self.text = &self.text[filled / 3 * 4..];
-        filled
+        self.text.consume(filled / 3 * 4);
+        Ok(filled)
     }
 
     /// The bytes of the next four characters; None at the end of the text, or at what is no base64.
-    fn quad(&mut self) -> Option<([u8; 3], usize)> {
+    fn quad(&mut self) -> Result<Option<([u8; 3], usize)>, Fault> {
         let mut quad = [0; 4];
         for slot in &mut quad {
-            let skipped = self.text.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
-            *slot = *self.text.get(skipped)?;
-            self.text = &self.text[skipped + 1..];
+            *slot = loop {
+                match self.text.peek(1)?.first() {
+                    Some(byte) if byte.is_ascii_whitespace() => self.text.consume(1),
+                    // The end of a text between tags is not this text's to take.
+                    None | Some(b'<') => return Ok(None),
+                    Some(&byte) => {
+                        self.text.consume(1);
+                        break byte;
+                    }
+                }
+            };
         }
         let padding = quad.iter().rev().take_while(|byte| **byte == b'=').count();
         let bits = quad.iter().try_fold(0u32, |bits, byte| match VALUES[*byte as usize] {
             0xff if *byte == b'=' && padding <= 2 => Some(bits << 6),
             0xff => None,
             value => Some(bits << 6 | u32::from(value)),
-        })?;
+        });
+        let Some(bits) = bits else { return Ok(None) };
         let [_, bytes @ ..] = bits.to_be_bytes();
-        Some((bytes, 3 - padding))
+        Ok(Some((bytes, 3 - padding)))
     }
-}
 
-impl Read for Base64<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+    fn fill(&mut self, buffer: &mut [u8]) -> Result<usize, Fault> {
         let mut filled = 0;
         while filled < buffer.len() {
             if let Some(byte) = self.ready.pop() {
@@ -70,11 +81,11 @@ impl Read for Base64<'_> {
                 filled += 1;
                 continue;
             }
-            filled += self.run(&mut buffer[filled..]);
+            filled += self.run(&mut buffer[filled..])?;
             if filled == buffer.len() {
                 break;
             }
-            let Some((bytes, count)) = self.quad() else { break };
+            let Some((bytes, count)) = self.quad()? else { break };
             if count == 3 && buffer.len() - filled >= 3 {
                 buffer[filled..filled + 3].copy_from_slice(&bytes);
                 filled += 3;
@@ -86,13 +97,21 @@ impl Read for Base64<'_> {
     }
 }
 
+impl Read for Base64<'_, '_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        Ok(self.fill(buffer)?)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn padded_runs_follow_each_other() {
-        let mut text = Base64::new(b" TWFu\nTQ== TWE=\tTWFu<");
+        let text = &b" TWFu\nTQ== TWE=\tTWFu<"[..];
+        let mut input = Input::of_stream(text, text.len() as u64);
+        let mut text = Base64::new(&mut input);
         let mut bytes = Vec::new();
         text.read_to_end(&mut bytes).unwrap();
         assert_eq!(bytes, b"ManMMaMan");
@@ -100,7 +119,8 @@ mod tests {
 
     #[test]
     fn small_reads_lose_nothing() {
-        let mut text = Base64::new(b"TWFuTWFu");
+        let mut input = Input::of_stream(&b"TWFuTWFu"[..], 8);
+        let mut text = Base64::new(&mut input);
         let mut two = [0; 2];
         for expected in [b"Ma", b"nM", b"an"] {
             text.read_exact(&mut two).unwrap();

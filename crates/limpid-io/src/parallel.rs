@@ -1,0 +1,30 @@
+//! Work on several cores, where there are several: a browser's page has one.
+
+use std::num::NonZero;
+use std::thread;
+
+/// More gain little: the file itself is then what takes the time.
+const MOST_THREADS: usize = 8;
+
+/// How many pieces to part large work into.
+pub(crate) fn threads() -> usize {
+    thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS)
+}
+
+/// The results of all pieces of work, in their order; each piece has a thread of its own, the first one the caller's.
+pub(crate) fn map<T: Send, R: Send>(pieces: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let mut pieces = pieces.into_iter();
+    let Some(first) = pieces.next() else { return Vec::new() };
+    let work = &work;
+    thread::scope(|scope| {
+        let others: Vec<_> = pieces.map(|piece| scope.spawn(move || work(piece))).collect();
+        let mut results = vec![work(first)];
+        for other in others {
+            match other.join() {
+                Ok(result) => results.push(result),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        results
+    })
+}
