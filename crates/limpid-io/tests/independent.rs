@@ -61,6 +61,83 @@ fn pieces_follow_each_other_and_keep_what_all_have() {
     assert_eq!(set.attributes.iter().map(|a| a.name.as_str()).collect::<Vec<_>>(), ["id"]);
 }
 
+/// Three positions appended as they are, from the given tags before them.
+fn appended(tags: &str, data: &[u8]) -> Vec<u8> {
+    let mut bytes = format!(
+        "<?xml version=\"1.0\"?><!-- > --><VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><!----><Piece NumberOfPoints=\"3\">{tags}\
+         </Piece></PolyData>\r\n<AppendedData encoding=\"raw\">\n  _"
+    )
+    .into_bytes();
+    bytes.extend(data);
+    bytes
+}
+
+#[test]
+fn appended_arrays_may_lie_in_any_order_and_be_one() {
+    let folder = Folder::new("appended");
+    let array = |name: &str, components: usize, offset: usize| {
+        let (format, kind) = ("format='appended'", "type=\"Float32\"");
+        format!(
+            "<DataArray {kind} Name=\"{name}\" NumberOfComponents=\"{components}\" {format} offset=\" {offset} \"></DataArray>"
+        )
+    };
+    let block = |numbers: &[f32]| {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        [&(bytes.len() as u32).to_le_bytes(), &bytes[..]].concat()
+    };
+    let positions: Vec<f32> = (0..9).map(|x| x as f32).collect();
+    // Density first, a gap, then positions, which are the velocities too.
+    let data = [block(&[5.0, 6.0, 7.0]), b"<gap>".to_vec(), block(&positions)].concat();
+    let tags = |velocity: usize| {
+        let points = format!("<Points>{}</Points>", array("Points", 3, 21));
+        let odd = array("a &gt; &quot;b&quot; > c", 1, 0);
+        format!("{points}<PointData>{}{}{odd}</PointData>", array("velocity", 3, velocity), array("density", 1, 0))
+    };
+    let set = folder.read("a.vtp", appended(&tags(21), &data)).unwrap();
+    assert_eq!(set.positions.as_flattened(), positions);
+    assert_eq!(set.attribute("velocity").unwrap().values, Values::F32(positions));
+    assert_eq!(set.attribute("density").unwrap().values, Values::F32(vec![5.0, 6.0, 7.0]));
+    assert_eq!(set.attribute("a > \"b\" > c").unwrap().values, Values::F32(vec![5.0, 6.0, 7.0]));
+
+    let error = folder.read("within.vtp", appended(&tags(25), &data)).unwrap_err().to_string();
+    assert!(error.contains("within another"), "{error}");
+    let error = folder.read("sizes.vtp", appended(&tags(0), &data)).unwrap_err().to_string();
+    assert!(error.contains("different sizes"), "{error}");
+    let error = folder.read("beyond.vtp", appended(&tags(1 << 40), &data)).unwrap_err().to_string();
+    assert!(error.contains("ends too early"), "{error}");
+}
+
+#[test]
+fn arrays_of_text_have_as_many_numbers_as_points() {
+    let folder = Folder::new("text");
+    for (numbers, problem) in [
+        ("1 2 3", ""),
+        ("1 2", "claims|ends too early"),
+        ("1 2 3 4", "more than 3"),
+        ("1 2 x", "a number was expected"),
+    ] {
+        let text = format!(
+            "<VTKFile type=\"PolyData\"><Piece NumberOfPoints=\"1\"><Points><DataArray type=\"Float32\">{numbers}</DataArray>\
+             </Points></Piece></VTKFile>"
+        );
+        let outcome = folder.read("a.vtp", text).map(|set| set.positions).map_err(|error| error.to_string());
+        match outcome {
+            Ok(positions) => assert!(problem.is_empty() && positions == [[1.0, 2.0, 3.0]]),
+            Err(error) => assert!(problem.split('|').any(|problem| error.contains(problem)), "{error}"),
+        }
+    }
+}
+
+#[test]
+fn tags_must_be_nested() {
+    let folder = Folder::new("nested");
+    let deep = "<a>".repeat(100);
+    for tags in ["<Piece NumberOfPoints=\"0\"></PolyData>", "<a b=1/>", "<a", "<!-- x", "</VTKFile", &deep] {
+        let text = format!("<VTKFile type=\"PolyData\"><PolyData>{tags}");
+        assert!(folder.read("a.vtp", text).is_err(), "{tags}");
+    }
+}
+
 #[test]
 fn other_xml_is_told_apart() {
     let folder = Folder::new("xml");

@@ -63,7 +63,8 @@ impl<R: Read> Blocks<R> {
         }
         let compressor = self.compressor;
         let unpack = |group: Vec<(Vec<u8>, u64)>| {
-            let mut bytes = Vec::new();
+            let length = group.iter().fold(0u64, |sum, (_, length)| sum.saturating_add(*length));
+            let mut bytes = Vec::with_capacity(length.min(AT_ONCE) as usize);
             for (packed, length) in group {
                 compressor.unpack(packed, length, &mut bytes)?;
             }
