@@ -3,7 +3,7 @@
 use crate::guard::guarded;
 use crate::samples::{Mean, mixes, sample_offset_px};
 use crate::{Aov, Background, Error, Gpu, Image, Painter, Picture, Shot, Timings, motion, readback};
-use limpid::{Partial, ParticleSlices, Particles, PassTime, Profiler, Radius};
+use limpid::{Partial, ParticleSlices, Particles, PassTime, Profiler, Radius, Renderer};
 use std::ops::Range;
 use std::time::Instant;
 
@@ -26,6 +26,11 @@ impl Offscreen {
     /// What it runs on.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
+    }
+
+    /// The passes of the fluid.
+    pub fn renderer_mut(&mut self) -> &mut Renderer {
+        self.painter.renderer_mut()
     }
 
     /// What the pictures to come have for a sky: an equirectangular picture

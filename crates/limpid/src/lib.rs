@@ -67,6 +67,7 @@ mod error;
 mod framing;
 mod gpu;
 mod host_target;
+mod lanes;
 #[cfg(test)]
 mod layout_tests;
 mod motion;
@@ -98,6 +99,7 @@ pub use error::Error;
 pub use framing::{Bounds, Framing};
 pub use gpu::{PassTime, Profiler};
 pub use host_target::{TargetFormat, TargetViews};
+pub use lanes::Lanes;
 pub use motion::Motion;
 pub use paint::{Coloring, MOST_LIQUIDS, Paint};
 pub use partial::Partial;

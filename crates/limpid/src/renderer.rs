@@ -15,7 +15,7 @@ use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
 use crate::{
-    Environment, EnvironmentMap, Error, Foam, ParticleBuffers, Particles, Scene, Settings, TargetFormat, TargetViews,
+    Environment, EnvironmentMap, Error, Foam, Lanes, ParticleBuffers, Particles, Scene, Settings, TargetFormat, TargetViews,
     View,
 };
 use bytemuck::{Pod, Zeroable};
@@ -277,6 +277,12 @@ impl Renderer {
         let recorder = &mut Recorder { device, encoder, frame_group, profiler: self.profiler.as_mut() };
         gather.encode(recorder, queue, buffers, particles);
         Ok(())
+    }
+
+    /// How the frames to come cut up their work. By default as [`Lanes::of`] says; a host may know better, as in browsers that
+    /// do not say that they run on a CPU.
+    pub fn set_lanes(&mut self, lanes: Lanes) {
+        self.smooth.lanes = lanes;
     }
 
     /// What the frames to come reflect in place of the procedural sky; None: that sky.

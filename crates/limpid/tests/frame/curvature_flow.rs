@@ -1,11 +1,12 @@
 //! Curvature flow and the mean curvature against their twins, and the laws they obey.
 
 use crate::common::{
-    Cloud, Difference, Random, Rendered, SIZE, forward, forward_orthographic, looking, render, shot_of,
+    Cloud, Difference, Random, Rendered, SIZE, forward, forward_orthographic, looking, render, shot_of, with_gpu,
 };
 use crate::reference::{Camera, curvature_flow, mean_curvature};
 use glam::DVec3;
-use limpid::{CurvatureFlow, Settings, Smoothing, View};
+use limpid::{CurvatureFlow, Lanes, Settings, Smoothing, View};
+use limpid_headless::Aov;
 
 const FORMS: [CurvatureFlow; 2] = [CurvatureFlow::Implicit, CurvatureFlow::Explicit];
 
@@ -51,6 +52,27 @@ fn twins() {
     compare("random", &random, forward(60.0, 0.05, SIZE));
     compare("orthographic", &random, forward_orthographic(2.0, 0.05, 5.0, SIZE));
     compare("dam break", &Cloud::dam_break(), dam_break_view());
+}
+
+/// Lines cut into segments, as GPUs take them, give what whole lines give, as CPUs do: also where smoothing reaches over many.
+#[test]
+fn segments_are_whole_lines() {
+    let cloud = Cloud::dam_break();
+    for strength in [1.5, 20.0] {
+        let smoothing = Smoothing { strength, ..Smoothing::flow(CurvatureFlow::Implicit) };
+        let shot = shot_of(&cloud, dam_break_view(), SIZE, Settings { smoothing, ..Settings::spheres() });
+        let [few, many] = with_gpu(|offscreen| {
+            let depths = [Lanes::Few, Lanes::Many].map(|lanes| {
+                offscreen.renderer_mut().set_lanes(lanes);
+                offscreen.render(&shot, &[Aov::Depth]).unwrap().aovs.remove(0).values
+            });
+            let lanes = Lanes::of(&offscreen.gpu().device);
+            offscreen.renderer_mut().set_lanes(lanes);
+            depths
+        });
+        assert!(few != many, "they differ in rounding, or one of them did not run");
+        Difference::of_depth(&many, &f64s(&few)).assert("segments", 1e-4 * cloud.radius(), 1e-3 * cloud.radius());
+    }
 }
 
 /// Mean |H| where all neighbours are there.

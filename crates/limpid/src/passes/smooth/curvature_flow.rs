@@ -1,6 +1,8 @@
-//! Curvature flow: `curvature_flow.wgsl` (semi-implicit) and `curvature_flow_explicit.wgsl`, both after `flow.wgsl`.
+//! Curvature flow: `curvature_flow.wgsl` (semi-implicit, by whole lines or by segments) and `curvature_flow_explicit.wgsl`, all
+//! after `flow.wgsl`.
 
 use super::{PIXEL_SLOTS, Step, Work};
+use crate::Lanes;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::passes::module;
 use crate::settings::CurvatureFlow as Form;
@@ -17,17 +19,20 @@ pub(super) struct CurvatureFlow {
 /// The semi-implicit form along one axis.
 #[derive(Clone)]
 pub(super) struct Axis {
+    /// Whole lines.
+    solve: Kernel,
     list_segments: Kernel,
-    /// Eliminates, then substitutes.
-    solve: [Kernel; 2],
+    /// By segments: eliminates, then substitutes.
+    solve_segments: [Kernel; 2],
+    lines: fn(&Targets) -> u32,
     segments: fn(&Targets) -> &Segments,
 }
 
 /// Bindings of the list: occupied tiles, the list, the pieces.
 const LIST_SLOTS: [Slot; 3] = [Slot::Read, Slot::Write, Slot::Write];
-/// Bindings of a solve: occupied tiles, the list, input, output, 4 bytes of scratch for each pixel, the pieces,
-/// the smoothing lengths.
-const SOLVE_SLOTS: [Slot; 7] = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Write, Slot::Read];
+/// Bindings of a solve: occupied tiles, input, output, 4 bytes of scratch for each pixel, the smoothing lengths; of
+/// segments also the list and the pieces.
+const SOLVE_SLOTS: [Slot; 7] = [Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Read, Slot::Read, Slot::Write];
 
 /// `segments.wgsl`'s `LINES`.
 const LINES: u32 = 8;
@@ -45,7 +50,7 @@ pub(crate) fn segments_bytes(lines: u32, length: u32) -> [u64; 2] {
 impl CurvatureFlow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let list = module!(device, "segments", "../../frame.wgsl", "segments.wgsl", "list_segments.wgsl");
-        let implicit = module!(
+        let lines = module!(
             device,
             "curvature flow",
             "../../frame.wgsl",
@@ -53,7 +58,19 @@ impl CurvatureFlow {
             "../sheet.wgsl",
             "flow.wgsl",
             "segments.wgsl",
-            "curvature_flow.wgsl"
+            "curvature_flow.wgsl",
+            "curvature_flow_lines.wgsl"
+        );
+        let segments = module!(
+            device,
+            "curvature flow by segments",
+            "../../frame.wgsl",
+            "../nearness_at.wgsl",
+            "../sheet.wgsl",
+            "flow.wgsl",
+            "segments.wgsl",
+            "curvature_flow.wgsl",
+            "curvature_flow_segments.wgsl"
         );
         let explicit = module!(
             device,
@@ -66,16 +83,21 @@ impl CurvatureFlow {
             "curvature_flow_explicit.wgsl"
         );
         let list = |entry| Kernel::new(device, frame, &list, entry, &LIST_SLOTS);
-        let solve = |entry| Kernel::new(device, frame, &implicit, entry, &SOLVE_SLOTS);
+        let solve = |entry| Kernel::new(device, frame, &lines, entry, &SOLVE_SLOTS[..5]);
+        let solve_segments = |entry| Kernel::new(device, frame, &segments, entry, &SOLVE_SLOTS);
         Self {
             rows: Axis {
+                solve: solve("solve_rows"),
                 list_segments: list("list_segments_of_rows"),
-                solve: ["eliminate_rows", "substitute_rows"].map(solve),
+                solve_segments: ["eliminate_rows", "substitute_rows"].map(solve_segments),
+                lines: |targets| targets.size[1],
                 segments: |targets| &targets.segments[0],
             },
             columns: Axis {
+                solve: solve("solve_columns"),
                 list_segments: list("list_segments_of_columns"),
-                solve: ["eliminate_columns", "substitute_columns"].map(solve),
+                solve_segments: ["eliminate_columns", "substitute_columns"].map(solve_segments),
+                lines: |targets| targets.size[0],
                 segments: |targets| &targets.segments[1],
             },
             count_segments: list("count_segments"),
@@ -109,20 +131,29 @@ impl CurvatureFlow {
 }
 
 impl Axis {
+    /// One solve; with many lanes, by the segments that [`CurvatureFlow::list_segments`] found.
     pub fn run(
         &self,
         recorder: &mut Recorder<'_>,
         name: &str,
-        input: &wgpu::Buffer,
-        output: &wgpu::Buffer,
+        lanes: Lanes,
+        (input, output): (&wgpu::Buffer, &wgpu::Buffer),
         targets: &Targets,
     ) {
         let Segments { list, pieces } = (self.segments)(targets);
         // The surface is scratch: it is written only after the filter.
-        let buffers = [&targets.occupied, list, input, output, &targets.surface, pieces, &targets.smoothing_lengths];
+        let buffers = [&targets.occupied, input, output, &targets.surface, &targets.smoothing_lengths, list, pieces];
         let resources = buffers.map(wgpu::Buffer::as_entire_binding);
-        for kernel in &self.solve {
-            recorder.run(name, kernel, &resources, &Grid::Indirect(list));
+        match lanes {
+            Lanes::Few => {
+                let lines = u64::from((self.lines)(targets));
+                recorder.run(name, &self.solve, &resources[..5], &Grid::Items(lines, LINES.into()));
+            }
+            Lanes::Many => {
+                for kernel in &self.solve_segments {
+                    recorder.run(name, kernel, &resources, &Grid::Indirect(list));
+                }
+            }
         }
     }
 }

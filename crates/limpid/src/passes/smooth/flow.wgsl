@@ -31,7 +31,7 @@ fn mean_difference(behind: f32, center: f32, ahead: f32, has_behind: bool, has_a
 // N, not of unit length, given the differences of nearness per pixel. In perspective a plane n . P = c has
 // (1 / z) c = n . (ray, 1), so the slopes of 1 / z give n / c exactly, the W terms of Eq. 3 included.
 fn normal_of(at: vec2i, center: f32, difference: vec2f) -> vec3f {
-    let slope = difference / view.px_step;
+    let slope = difference * (1.0 / view.px_step); // once a kernel, where compilers know loops
     let ray = view.px_zero + (vec2f(at) + 0.5) * view.px_step;
     return select(vec3f(slope * view.far, 1.0), vec3f(slope, center - dot(ray, slope)), is_perspective());
 }
@@ -44,7 +44,7 @@ fn conductance(sum: vec3f) -> f32 {
 // What a difference of fluxes adds to the nearness of a pixel in one step of the diffusion time length^2, per axis.
 fn mobility(at: vec2i, nearness: f32) -> vec2f {
     let scale = select(1.0, nearness, is_perspective());
-    let sigma_px = lengths[u32(at.y) * view.size.x + u32(at.x)] * scale / view.px_step;
+    let sigma_px = lengths[u32(at.y) * view.size.x + u32(at.x)] * scale * (1.0 / view.px_step);
     let is_edge = (at == vec2i(0)) | (at == vec2i(view.size) - 1);
     return select(0.5 * sigma_px * sigma_px * scale, vec2f(0.0), is_edge);
 }

@@ -7,7 +7,7 @@ mod gaussian;
 mod liquid_lengths;
 mod narrow_range;
 
-use crate::Settings;
+use crate::{Lanes, Settings};
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::passes::paint::PaintUniform;
 use crate::settings::{CurvatureFlow as Form, Filter, Smoothing};
@@ -30,6 +30,8 @@ pub(crate) struct Smooth {
     bilateral: Bilateral,
     curvature_flow: CurvatureFlow,
     narrow_range: NarrowRange,
+    /// For curvature flow.
+    pub lanes: Lanes,
 }
 
 /// One step of a filter: its name under `smooth/` and what it runs.
@@ -55,6 +57,7 @@ impl Smooth {
             bilateral: Bilateral::new(device, frame),
             curvature_flow: CurvatureFlow::new(device, frame),
             narrow_range: NarrowRange::new(device, frame),
+            lanes: Lanes::of(device),
         }
     }
 
@@ -90,7 +93,8 @@ impl Smooth {
         if matches!(smoothing.filter, Filter::Bilateral | Filter::CurvatureFlow) {
             self.breadth.encode(recorder, targets);
         }
-        if smoothing.filter == Filter::CurvatureFlow && smoothing.curvature_flow == Form::Implicit {
+        let by_lines = smoothing.filter == Filter::CurvatureFlow && smoothing.curvature_flow == Form::Implicit;
+        if by_lines && self.lanes == Lanes::Many {
             self.curvature_flow.list_segments(recorder, targets);
         }
         let mut input = &targets.raw;
@@ -103,7 +107,7 @@ impl Smooth {
                     let resources = buffers.map(wgpu::Buffer::as_entire_binding);
                     recorder.run(&name, kernel, &resources, &Grid::Indirect(&targets.tiles));
                 }
-                Work::Lines(axis) => axis.run(recorder, &name, input, output, targets),
+                Work::Lines(axis) => axis.run(recorder, &name, self.lanes, (input, output), targets),
             }
             input = output;
         }

@@ -1,4 +1,4 @@
-// The segments that curvature flow cuts lines into: part of its modules.
+// Lines of pixels and the segments that curvature flow cuts them into: part of its modules.
 
 const TILE: u32 = 8u;
 // Lines side by side in a listed segment: a row or column of tiles.
