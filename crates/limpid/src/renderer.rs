@@ -15,8 +15,8 @@ use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
 use crate::targets::{FluidImages, Targets};
 use crate::view::ViewUniform;
 use crate::{
-    Environment, EnvironmentMap, Error, Foam, Lanes, ParticleBuffers, Particles, Scene, Settings, TargetFormat, TargetViews,
-    View,
+    Environment, EnvironmentMap, Error, Foam, Lanes, ParticleBuffers, Particles, Scene, Settings, TargetFormat,
+    TargetViews, View,
 };
 use bytemuck::{Pod, Zeroable};
 pub use parts::PartialBuffers;

@@ -1,7 +1,7 @@
 //! The images of one frame, made anew when its size changes.
 
 use crate::gpu::storage_buffer;
-use crate::passes::{pyramid_texels, segments_bytes};
+use crate::passes::{pyramid_texels, relations_bytes, segments_bytes};
 use crate::{Error, Scale, Settings};
 
 /// `frame.wgsl`'s `BLOCK`.
@@ -38,7 +38,7 @@ pub(crate) struct Targets {
     /// What curvature flow solves: rows, and columns.
     pub segments: [Segments; 2],
     pub thickness: ThicknessImages,
-    /// vec4: view-space normal, thickness in world units.
+    /// vec4: view-space normal, thickness in world units. Before these, what curvature flow's relations are.
     pub surface: wgpu::Buffer,
     /// vec4: linear premultiplied colour.
     pub shaded: wgpu::Buffer,
@@ -158,7 +158,7 @@ impl Targets {
             segments: [Segments::new(device, size[1], size[0]), Segments::new(device, size[0], size[1])],
             in_scene,
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size), in_scene),
-            surface: image("surface", 16 * pixels),
+            surface: image("surface", (16 * pixels).max(relations_bytes(size))),
             shaded: image("shaded", 16 * pixels),
             picture: (filter_scale != Scale::Full).then(|| PictureImages {
                 raw: image("picture raw nearness", 4 * picture_pixels),

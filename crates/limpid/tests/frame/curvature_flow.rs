@@ -54,13 +54,14 @@ fn twins() {
     compare("dam break", &Cloud::dam_break(), dam_break_view());
 }
 
-/// Lines cut into segments, as GPUs take them, give what whole lines give, as CPUs do: also where smoothing reaches over many.
+/// Lines cut into segments, as GPUs take them, give what whole lines give, as CPUs do: also where smoothing reaches over many, and in a
+/// picture with fewer lines than are taken at a time.
 #[test]
 fn segments_are_whole_lines() {
     let cloud = Cloud::dam_break();
-    for strength in [1.5, 20.0] {
+    for (strength, size) in [(1.5, SIZE), (6.0, SIZE), (20.0, [200, 2])] {
         let smoothing = Smoothing { strength, ..Smoothing::flow(CurvatureFlow::Implicit) };
-        let shot = shot_of(&cloud, dam_break_view(), SIZE, Settings { smoothing, ..Settings::spheres() });
+        let shot = shot_of(&cloud, dam_break_view(), size, Settings { smoothing, ..Settings::spheres() });
         let [few, many] = with_gpu(|offscreen| {
             let depths = [Lanes::Few, Lanes::Many].map(|lanes| {
                 offscreen.renderer_mut().set_lanes(lanes);
@@ -71,8 +72,34 @@ fn segments_are_whole_lines() {
             depths
         });
         assert!(few != many, "they differ in rounding, or one of them did not run");
-        Difference::of_depth(&many, &f64s(&few)).assert("segments", 1e-4 * cloud.radius(), 1e-3 * cloud.radius());
+        let what = format!("{strength} r, {size:?}");
+        Difference::of_depth(&many, &f64s(&few)).assert(&what, 1e-4 * cloud.radius(), 1e-3 * cloud.radius());
     }
+}
+
+/// Close by, a step is of many pixels: none may swing about.
+#[test]
+fn long_steps_leave_no_pixel_swinging() {
+    let cloud = Cloud::dam_break();
+    let view = looking([1.75, 0.75, 1.25], [1.2, 0.4, 0.6], SIZE);
+    let [few, many] = [9, 200].map(|iterations| {
+        let smoothing = Smoothing { iterations, ..Smoothing::flow(CurvatureFlow::Implicit) };
+        smoothed(&cloud, view, SIZE, smoothing)
+    });
+    // Pixels a tenth of r and more beside the mean of both neighbours, which are much closer to each other.
+    let spikes = |rendered: &Rendered| {
+        let [width, height] = SIZE.map(|size| size as usize);
+        let rows = (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| y * width + x));
+        rows.filter(|&i| {
+            let [left, here, right] = [i - 1, i, i + 1].map(|i| f64::from(rendered.depth[i]));
+            let beside = (0.5 * (left + right) - here).abs();
+            beside > 0.1 * cloud.radius() && (left - right).abs() < 0.5 * beside
+        })
+        .count()
+    };
+    let [few, many] = [&few, &many].map(spikes);
+    println!("{few} spikes after 9 steps, {many} after 200");
+    assert!(few <= 5 * many, "{few} spikes after 9 steps, {many} after 200");
 }
 
 /// Mean |H| where all neighbours are there.

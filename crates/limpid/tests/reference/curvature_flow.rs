@@ -54,13 +54,13 @@ impl Flow {
         [k, 0.6 * (1.0 - 0.45 * lag) * k]
     }
 
-    /// The implicit side's links toward the pixels before and after one along an axis, and the flux difference between them.
-    fn around(&self, image: &Nearness<'_>, at: [i64; 2], axis: [i64; 2]) -> ([f64; 2], f64) {
-        let [k_behind, behind] = self.link(image, moved(at, axis, -1), axis);
-        let [k_ahead, ahead] = self.link(image, at, axis);
+    /// The links ([`Self::link`]) toward the pixels before and after one along an axis, and the flux difference between them.
+    fn around(&self, image: &Nearness<'_>, at: [i64; 2], axis: [i64; 2]) -> ([[f64; 2]; 2], f64) {
+        let behind = self.link(image, moved(at, axis, -1), axis);
+        let ahead = self.link(image, at, axis);
         let center = image.at(at);
-        let flux_ahead = k_ahead * (image.at(moved(at, axis, 1)) - center);
-        let flux_behind = k_behind * (center - image.at(moved(at, axis, -1)));
+        let flux_ahead = ahead[0] * (image.at(moved(at, axis, 1)) - center);
+        let flux_behind = behind[0] * (center - image.at(moved(at, axis, -1)));
         ([behind, ahead], flux_ahead - flux_behind)
     }
 
@@ -108,7 +108,9 @@ impl Flow {
             let row = |i: i64| {
                 let mobility = self.mobility(image, place(i))[axis];
                 let (links, flux) = self.around(image, place(i), AXES[axis]);
-                let [behind, ahead] = links.map(|link| mobility * link);
+                // Short steps are as implicit as `link` says, long ones wholly.
+                let short = 1.0 / (1.0 + (mobility * (links[0][0] + links[1][0]) / 30.0).powi(2));
+                let [behind, ahead] = links.map(|[k, own]| mobility * (k + short * (own - k)));
                 [-behind, 1.0 + behind + ahead, -ahead, mobility * flux]
             };
             for (i, change) in (0..).zip(tridiagonal((0..length).map(row))) {

@@ -30,8 +30,7 @@ pub(super) struct Axis {
 
 /// Bindings of the list: occupied tiles, the list, the pieces.
 const LIST_SLOTS: [Slot; 3] = [Slot::Read, Slot::Write, Slot::Write];
-/// Bindings of a solve: occupied tiles, input, output, 4 bytes of scratch for each pixel, the smoothing lengths; of
-/// segments also the list and the pieces.
+/// Bindings of a solve: occupied tiles, input, output, relations, smoothing lengths; of segments also the list and the pieces.
 const SOLVE_SLOTS: [Slot; 7] = [Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Read, Slot::Read, Slot::Write];
 
 /// `segments.wgsl`'s `LINES`.
@@ -45,6 +44,12 @@ const PIECE: u64 = 32;
 pub(crate) fn segments_bytes(lines: u32, length: u32) -> [u64; 2] {
     let along = u64::from(length.div_ceil(SEGMENT));
     [16 + 4 * along * u64::from(lines.div_ceil(LINES)), PIECE * along * u64::from(lines)]
+}
+
+/// Bytes of the relations of all lines along either axis, `curvature_flow.wgsl`'s `relation_slot`.
+pub(crate) fn relations_bytes(size: [u32; 2]) -> u64 {
+    let along = |lines: u32, length: u32| 8 * u64::from(lines.next_multiple_of(LINES)) * u64::from(length);
+    along(size[0], size[1]).max(along(size[1], size[0]))
 }
 
 impl CurvatureFlow {
@@ -141,7 +146,7 @@ impl Axis {
         targets: &Targets,
     ) {
         let Segments { list, pieces } = (self.segments)(targets);
-        // The surface is scratch: it is written only after the filter.
+        // The surface has room for the relations: it is written only after the filter.
         let buffers = [&targets.occupied, input, output, &targets.surface, &targets.smoothing_lengths, list, pieces];
         let resources = buffers.map(wgpu::Buffer::as_entire_binding);
         match lanes {

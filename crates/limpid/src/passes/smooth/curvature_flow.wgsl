@@ -3,7 +3,7 @@
 //
 //     d_i - m_i [j_i+ (d_i+1 - d_i) - j_i- (d_i - d_i-1)] = m_i [k_i+ (u_i+1 - u_i) - k_i- (u_i - u_i-1)]
 //
-// with k = 1 / L half-way between pixels and j as `Link` says. Background, silhouettes and the picture's edge have k = 0,
+// with k = 1 / L half-way between pixels and j as `Link` and LONG say. Background, silhouettes and the picture's edge have k = 0,
 // so the runs between them fall apart by themselves.
 //
 // One lane takes a share of a line, the whole of it (`curvature_flow_lines.wgsl`) or a segment (`curvature_flow_segments.wgsl`),
@@ -15,8 +15,8 @@
 
 @group(1) @binding(0) var<storage, read> occupied: array<u32>; // for each tile, in rows
 @group(1) @binding(1) var<storage, read> input: array<f32>;
-@group(1) @binding(2) var<storage, read_write> output: array<f32>; // the relations' brackets, then the result
-@group(1) @binding(3) var<storage, read_write> factors: array<u32>; // a relation's previous and next, `pack_shares`
+@group(1) @binding(2) var<storage, read_write> output: array<f32>;
+@group(1) @binding(3) var<storage, read_write> relations: array<vec2u>; // of the pixels of all lines, see `relation_slot`: the bracket's bits, `pack_shares`
 @group(1) @binding(4) var<storage, read> lengths: array<f32>; // smoothing lengths, breadth.wgsl's
 
 // How implicit a step is: at 1/2 it would be most accurate, at 1 it damps bumps of single pixels best.
@@ -26,12 +26,18 @@ const IMPLICIT: f32 = 0.6;
 // be hardly implicit at all and single pixels swing; at 0 they lag behind, which takes more steps to make up for.
 const TANGENT: f32 = 0.45;
 
-fn pixel_index(at: vec2i) -> u32 {
-    return u32(at.y) * view.size.x + u32(at.x);
+// The length of a step, in k m summed over both sides, at which it is half-way to wholly implicit: IMPLICIT and TANGENT are for
+// short steps. In long ones, as in close-ups, single pixels would swing about, and the more so the steeper the slope.
+const LONG: f32 = 30.0;
+
+// The relations of LINES lines lie side by side: lanes that work on them share cache lines, whatever the picture's width.
+// A line's first; its others follow LINES apart.
+fn relation_slot(line: u32, axis: vec2i) -> u32 {
+    return line / LINES * LINES * u32(dot(vec2i(view.size), axis)) + line % LINES;
 }
 
-// Two shares of at most 1 in 16 bits each, to the nearest: by the bits of 1 to 2 as a float, which CPUs do for all lanes at
-// once, as they do not pack2x16unorm.
+// A relation's previous and next, of at most 1, in 16 bits each, to the nearest: by the bits of 1 to 2 as a float, which
+// CPUs do for all lanes at once, as they do not pack2x16unorm.
 fn pack_shares(shares: vec2f) -> u32 {
     let bits = (bitcast<vec2u>(min(shares, vec2f(0.99998)) + (1.0 + 0.5 / 65536.0)) >> vec2u(7u)) & vec2u(0xffffu);
     return bits.x | (bits.y << 16u);
@@ -48,8 +54,9 @@ fn follow(before: vec3f, behind: f32, ahead: f32, constant: f32) -> vec3f {
     return vec3f(constant + behind * before.x, behind * before.y, ahead) * scale;
 }
 
-// Between two pixels: the flux k (b - a), and j, which is IMPLICIT times a mean of k and of the flux's derivative by b - a.
+// Between two pixels: k, the flux k (b - a), and j, which is IMPLICIT times a mean of k and of the flux's derivative by b - a.
 struct Link {
+    k: f32,
     j: f32,
     flux: f32,
 }
@@ -63,12 +70,13 @@ fn link(axis: vec2f, axis_px: f32, difference: f32, sum: vec3f) -> Link {
     let along = dot(sum.xy, axis);
     let lean = select(view.far * along, along - ray * sum.z, is_perspective()) * difference * (1.0 / px_step);
     let lag = clamp(0.25 * lean * k * k, 0.0, 1.0);
-    return Link(IMPLICIT * (1.0 - TANGENT * lag) * k, k * difference);
+    return Link(k, IMPLICIT * (1.0 - TANGENT * lag) * k, k * difference);
 }
 
 // What a lane takes of a line, in pixels along it.
 struct Share {
-    origin: vec2i, // the line's first pixel
+    line: u32,
+    origin: vec2i, // its first pixel
     axis: vec2i,
     begin: i32, // a tile's first pixel
     end: i32, // a tile's last or the line's
@@ -117,7 +125,7 @@ fn line_pixel(share: Share, i: i32, behind: f32, center: f32, ahead: f32, has_be
 // The link from a pixel on a line to the next.
 fn link_ahead(share: Share, i: i32, here: LinePixel, next: LinePixel) -> Link {
     if !here.has_next {
-        return Link(0.0, 0.0);
+        return Link(0.0, 0.0, 0.0);
     }
     let axis = vec2f(share.axis);
     return link(axis, f32(i), next.nearness - here.nearness, here.normal + next.normal);
@@ -125,6 +133,7 @@ fn link_ahead(share: Share, i: i32, here: LinePixel, next: LinePixel) -> Link {
 
 // Step 1.
 fn eliminate(share: Share) -> Piece {
+    let slot = relation_slot(share.line, share.axis);
     var relation = vec3f(0.0, 1.0, 0.0);
     var first = vec3f(0.0, 0.0, 1.0);
     var begin = share.begin;
@@ -151,15 +160,18 @@ fn eliminate(share: Share) -> Piece {
         var behind = link_ahead(share, begin - 1, last, here);
         for (var i = begin; i < end; i++) {
             let at = share.origin + i * share.axis;
-            let index = pixel_index(at);
             let far_ahead = along(share, i + 2);
             let next = line_pixel(share, i + 1, here.nearness, ahead, far_ahead, here.has_next);
             let after = link_ahead(share, i, here, next);
             let change = dot(mobility(at, here.nearness), vec2f(share.axis));
-            relation = follow(relation, change * behind.j, change * after.j, change * (after.flux - behind.flux));
+            let k = vec2f(behind.k, after.k);
+            let length = change * (k.x + k.y) / LONG;
+            let short = 1.0 / (1.0 + length * length);
+            let j = change * mix(k, vec2f(behind.j, after.j), short);
+            relation = follow(relation, j.x, j.y, change * (after.flux - behind.flux));
             let packed = pack_shares(relation.yz);
-            factors[index] = packed;
-            output[index] = here.nearness + relation.x - unpack_shares(packed).y * ahead;
+            let bracket = here.nearness + relation.x - unpack_shares(packed).y * ahead;
+            relations[slot + u32(i) * LINES] = vec2u(bitcast<u32>(bracket), packed);
             first = vec3f(first.xy, 0.0) + first.z * relation;
             here = next;
             ahead = far_ahead;
@@ -172,6 +184,7 @@ fn eliminate(share: Share) -> Piece {
 
 // Step 2. `ends`: the changes of the pixels before and after the share.
 fn substitute(share: Share, ends: vec2f) {
+    let slot = relation_slot(share.line, share.axis);
     // Nearness after the step of the pixel after this one.
     var next = along(share, share.end) + ends.y;
     var begin = (share.end - 1) / i32(TILE) * i32(TILE);
@@ -183,9 +196,10 @@ fn substitute(share: Share, ends: vec2f) {
             break;
         }
         for (var i = min(begin + i32(TILE), share.end) - 1; i >= begin; i--) {
-            let index = pixel_index(share.origin + i * share.axis);
-            next = output[index] + dot(unpack_shares(factors[index]), vec2f(ends.x, next));
-            output[index] = next;
+            let packed = relations[slot + u32(i) * LINES];
+            next = bitcast<f32>(packed.x) + dot(unpack_shares(packed.y), vec2f(ends.x, next));
+            let at = vec2u(share.origin + i * share.axis);
+            output[at.y * view.size.x + at.x] = next;
         }
         begin -= i32(TILE);
     }

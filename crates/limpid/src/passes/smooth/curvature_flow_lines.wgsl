@@ -5,7 +5,7 @@ fn solve(line: u32, axis: vec2i) {
     if line >= lines_of(axis) {
         return;
     }
-    let share = Share(i32(line) * axis.yx, axis, 0, dot(vec2i(view.size), axis));
+    let share = Share(line, i32(line) * axis.yx, axis, 0, dot(vec2i(view.size), axis));
     _ = eliminate(share);
     substitute(share, vec2f(0.0));
 }

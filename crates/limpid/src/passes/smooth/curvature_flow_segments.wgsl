@@ -29,7 +29,7 @@ fn segment_of(group: vec3u, groups: vec3u, lane: vec2u, axis: vec2i) -> Segment 
     let begin = i32(place.x * SEGMENT);
     let end = min(begin + i32(SEGMENT), dot(vec2i(view.size), axis));
     let inside = (item < segments.count) & (place.y < lines_of(axis));
-    return Segment(Share(i32(place.y) * axis.yx, axis, begin, end), place, inside);
+    return Segment(Share(place.y, i32(place.y) * axis.yx, axis, begin, end), place, inside);
 }
 
 // Two pieces, one after the other, as one.

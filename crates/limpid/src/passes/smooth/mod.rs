@@ -7,15 +7,15 @@ mod gaussian;
 mod liquid_lengths;
 mod narrow_range;
 
-use crate::{Lanes, Settings};
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::passes::paint::PaintUniform;
 use crate::settings::{CurvatureFlow as Form, Filter, Smoothing};
 use crate::targets::Targets;
+use crate::{Lanes, Settings};
 use bilateral::Bilateral;
 use breadth::Breadth;
-pub(crate) use curvature_flow::segments_bytes;
 use curvature_flow::{Axis, CurvatureFlow};
+pub(crate) use curvature_flow::{relations_bytes, segments_bytes};
 use gaussian::Gaussian;
 #[cfg(test)]
 pub(crate) use liquid_lengths::LengthsUniform;
