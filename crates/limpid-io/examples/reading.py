@@ -22,7 +22,7 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 COUNT = 1_000_000
-TURNS = 10
+TURNS = 6
 SPLASHSURF = """
 import sys, time, pysplashsurf
 start = time.perf_counter()

@@ -102,6 +102,11 @@ fn appended_arrays_may_lie_in_any_order_and_be_one() {
     let error = folder.read("within.vtp", appended(&tags(25), &data)).unwrap_err().to_string();
     assert!(error.contains("within another"), "{error}");
     let error = folder.read("sizes.vtp", appended(&tags(0), &data)).unwrap_err().to_string();
+    assert!(error.contains("12 bytes instead of 36"), "{error}");
+    let swapped =
+        tags(21).replace("Name=\"density\" NumberOfComponents=\"1\"", "Name=\"density\" NumberOfComponents=\"2\"");
+    let swapped = swapped.replace("offset=\" 0 \"", "offset=\" 21 \"");
+    let error = folder.read("swapped.vtp", appended(&swapped, &data)).unwrap_err().to_string();
     assert!(error.contains("different sizes"), "{error}");
     let error = folder.read("beyond.vtp", appended(&tags(1 << 40), &data)).unwrap_err().to_string();
     assert!(error.contains("ends too early"), "{error}");

@@ -5,6 +5,7 @@
 mod common;
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -239,6 +240,28 @@ fn changed_in_many_ways() {
             assert!(outcome.is_ok(), "round {round} of {name}: {}", changed.escape_ascii());
             let largest = LARGEST.load(Ordering::Relaxed);
             assert!(largest <= ALLOWED, "round {round}, {largest} bytes for {}", changed.escape_ascii());
+        }
+    }
+}
+
+/// The corpora of cargo-fuzz: small files that between them reach all of a reader's code that fuzzing has reached.
+#[test]
+fn what_fuzzing_keeps_is_read_soundly() {
+    let _turn = TURN.lock();
+    let corpora = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus");
+    let entries = |folder: &Path| -> Vec<PathBuf> {
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect()
+    };
+    let formats = entries(&corpora);
+    assert_eq!(formats.len(), limpid_io::Format::ALL.len());
+    for format in formats {
+        let name = format!("any.{}", format.file_name().unwrap().to_str().unwrap());
+        for file in entries(&format) {
+            let bytes = std::fs::read(&file).unwrap();
+            LARGEST.store(0, Ordering::Relaxed);
+            let outcome = std::panic::catch_unwind(|| common::sound::check(&name, &bytes));
+            let largest = LARGEST.load(Ordering::Relaxed);
+            assert!(outcome.is_ok() && largest <= ALLOWED, "{}: {largest} bytes at once", file.display());
         }
     }
 }
