@@ -1,6 +1,7 @@
 //! Work on several cores, where there are several: a browser's page has one.
 
 use std::num::NonZero;
+use std::sync::OnceLock;
 use std::thread;
 
 /// More gain little: the file itself is then what takes the time.
@@ -8,7 +9,9 @@ const MOST_THREADS: usize = 8;
 
 /// How many pieces to part large work into.
 pub(crate) fn threads() -> usize {
-    thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS)
+    // The system takes its time to tell.
+    static THREADS: OnceLock<usize> = OnceLock::new();
+    *THREADS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS))
 }
 
 /// The results of all pieces of work, in their order; each piece has a thread of its own, the first one the caller's.

@@ -6,12 +6,15 @@ use bytemuck::Pod;
 use bytemuck::allocation::try_cast_vec;
 
 use crate::error::ReadError;
-use crate::names;
 use crate::{Attribute, Format, ParticleSet, Values};
+use crate::{names, parallel};
 
 /// A set is moved to its own origin if it lies farther out than this many times its extent: nearer, f32 loses at most
 /// two of its 24 bits, and positions stay what the file says.
 const FAR: f64 = 4.0;
+
+/// Numbers that a core looks at in the time that it takes to ask it.
+const LEAST_SHARE: usize = 1 << 20;
 
 /// Particles as the file has them.
 pub(crate) struct Raw {
@@ -102,7 +105,10 @@ pub(crate) fn zip<T: Copy>(x: &[T], y: &[T], z: &[T]) -> Vec<[T; 3]> {
 
 /// In pieces without a way out, which processors take several numbers at a time of.
 fn all_finite(numbers: &[f32]) -> bool {
-    numbers.chunks(1024).all(|piece| piece.iter().fold(true, |all, x| all & x.is_finite()))
+    let is_finite =
+        |numbers: &[f32]| numbers.chunks(1024).all(|piece| piece.iter().fold(true, |all, x| all & x.is_finite()));
+    let share = numbers.len().div_ceil(parallel::threads()).max(LEAST_SHARE);
+    parallel::map(numbers.chunks(share).collect(), is_finite).into_iter().all(|all| all)
 }
 
 fn into_f64(values: Values) -> Vec<f64> {

@@ -2,8 +2,13 @@
 
 use std::borrow::Cow;
 
+use bytemuck::Pod;
+
 use crate::error::{Fault, broken};
 use crate::input::{self, Input, parse};
+
+/// Numbers read at a time, which stay in a core's cache meanwhile.
+const PIECE: usize = 1 << 16;
 
 /// The numbers of an attribute, one particle after the other, in a type that holds what the file has exactly.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,14 +222,46 @@ impl Input<'_> {
             let mut columns = self.columns(&[scalar], count)?;
             return Ok(columns.swap_remove(0));
         }
-        let mut values = scalar.array(self.claim(count, scalar.size())?);
-        let slot = Slot { scalar, components: 1, offset: 0 };
-        let size = scalar.size();
-        self.blocks(count, size, |block| {
-            values.grow(block.len() / size, count as usize);
-            values.extend_from_records(block, size, slot, encoding);
-        })?;
-        Ok(values)
+        let swaps = (encoding == Encoding::Big) != cfg!(target_endian = "big");
+        Ok(match scalar {
+            Scalar::U8 => Values::U8(self.array(count, false, |x| x)?),
+            Scalar::I32 => Values::I32(self.array(count, swaps, i32::swap_bytes)?),
+            Scalar::I64 | Scalar::U64 => Values::I64(self.array(count, swaps, i64::swap_bytes)?),
+            Scalar::F32 => Values::F32(self.array(count, swaps, |x: f32| f32::from_bits(x.to_bits().swap_bytes()))?),
+            Scalar::F64 => Values::F64(self.array(count, swaps, |x: f64| f64::from_bits(x.to_bits().swap_bytes()))?),
+            Scalar::I8 | Scalar::I16 | Scalar::U16 | Scalar::U32 => {
+                let size = scalar.size();
+                let mut values = scalar.array(self.claim(count, size)?);
+                let slot = Slot { scalar, components: 1, offset: 0 };
+                self.blocks(count, size, |block| {
+                    values.grow(block.len() / size, count as usize);
+                    values.extend_from_records(block, size, slot, encoding);
+                })?;
+                values
+            }
+        })
+    }
+
+    /// Numbers whose type is that of the file, but for the order of their bytes: read to where they stay.
+    fn array<T: Pod>(&mut self, count: u64, swaps: bool, swap: impl Fn(T) -> T) -> Result<Vec<T>, Fault> {
+        let known = self.claim(count, size_of::<T>())?;
+        // Memory that is zero to begin with costs nothing until it is written to.
+        let mut array = vec![T::zeroed(); if self.is_exact() { known } else { 0 }];
+        let mut done = 0;
+        while done < count as usize {
+            let end = count.min(done as u64 + PIECE as u64) as usize;
+            if end > array.len() {
+                input::grow(&mut array, end - done, count as usize);
+                array.resize(end, T::zeroed());
+            }
+            let piece = &mut array[done..end];
+            self.exact(bytemuck::cast_slice_mut(piece))?;
+            if swaps {
+                piece.iter_mut().for_each(|x| *x = swap(*x));
+            }
+            done = end;
+        }
+        Ok(array)
     }
 
     /// Passes over an array of `count` numbers.
