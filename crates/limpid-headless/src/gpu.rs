@@ -55,11 +55,19 @@ fn ranked() -> Vec<wgpu::Adapter> {
     let backends = wgpu::Backends::PRIMARY;
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends,
+        flags: instance_flags(),
         ..wgpu::InstanceDescriptor::new_without_display_handle()
     });
     let mut adapters = block_on(instance.enumerate_adapters(backends));
     rank(&mut adapters);
     adapters
+}
+
+/// wgpu's own, without the dispatch that it adds to every indirect one to look at its arguments: limpid's kernels write them. On
+/// D3D12 kernels would no longer be told the number of groups.
+fn instance_flags() -> wgpu::InstanceFlags {
+    let flags = wgpu::InstanceFlags::from_env_or_default();
+    if cfg!(windows) { flags } else { flags - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL }
 }
 
 /// Keeps those that can run limpid, the best first.

@@ -27,7 +27,7 @@ pub(crate) struct Targets {
     pub raw: wgpu::Buffer,
     /// u32 nearness bits per block, then per tile of each width, that all its pixels reach (`covered.wgsl`).
     pub covered: wgpu::Buffer,
-    /// Indirect dispatch, count and positions of the tiles that hold fluid.
+    /// Indirect dispatch, count, indirect dispatch for four at a time ([`QUAD_GROUPS`]) and positions of the tiles that hold fluid.
     pub tiles: wgpu::Buffer,
     /// u32 for each tile: whether it is among them.
     pub occupied: wgpu::Buffer,
@@ -45,6 +45,9 @@ pub(crate) struct Targets {
     /// The same at the picture's resolution, where that is another.
     pub picture: Option<PictureImages>,
 }
+
+/// Where in [`Targets::tiles`] the indirect dispatch of one group for four tiles is, bytes.
+pub(crate) const QUAD_GROUPS: u64 = 16;
 
 /// Segments of all lines along one axis.
 #[derive(Clone)]
@@ -151,7 +154,7 @@ impl Targets {
             thickness_scale,
             raw: image("raw nearness", 4 * pixels),
             covered: image("covered blocks", 4 * covered_words(size)),
-            tiles: image("tiles", 16 + 4 * cells(size, TILE_PX)),
+            tiles: image("tiles", 28 + 4 * cells(size, TILE_PX)),
             occupied: image("occupied tiles", 4 * cells(size, TILE_PX)),
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
             smoothing_lengths: image("smoothing lengths", 4 * pixels),

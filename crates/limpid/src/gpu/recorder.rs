@@ -11,6 +11,8 @@ pub(crate) enum Grid<'a> {
     Image([u32; 2]),
     /// Groups from the first three words of a buffer.
     Indirect(&'a wgpu::Buffer),
+    /// From the three words after so many bytes.
+    IndirectAt(&'a wgpu::Buffer, u64),
 }
 
 /// The frame under recording.
@@ -44,6 +46,7 @@ impl Recorder<'_> {
             }
             Grid::Image(size) => pass.dispatch_workgroups(size[0].div_ceil(8), size[1].div_ceil(8), 1),
             Grid::Indirect(buffer) => pass.dispatch_workgroups_indirect(buffer, 0),
+            Grid::IndirectAt(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
         }
     }
 

@@ -3,6 +3,7 @@
 struct Tiles {
     groups: vec3u,
     count: u32,
+    quad_groups: vec3u,
     positions: array<u32>,
 }
 

@@ -11,6 +11,7 @@
 struct Tiles {
     groups: vec3u, // indirect dispatch of one group for each tile
     count: atomic<u32>,
+    quad_groups: vec3u, // and of one for four
     positions: array<u32>, // x | y << 16, in tiles; order varies, results do not
 }
 
@@ -56,8 +57,13 @@ fn list_tiles(
     }
 }
 
+fn groups_of(count: u32) -> vec3u {
+    return vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
+}
+
 @compute @workgroup_size(1)
 fn count_tiles() {
     let count = atomicLoad(&tiles.count);
-    tiles.groups = vec3u(min(count, 65535u), (count + 65534u) / 65535u, 1u);
+    tiles.groups = groups_of(count);
+    tiles.quad_groups = groups_of((count + 3u) / 4u);
 }

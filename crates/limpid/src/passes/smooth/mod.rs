@@ -10,7 +10,7 @@ mod narrow_range;
 use crate::gpu::{Grid, Kernel, Recorder, Slot};
 use crate::passes::paint::PaintUniform;
 use crate::settings::{CurvatureFlow as Form, Filter, Smoothing};
-use crate::targets::Targets;
+use crate::targets::{QUAD_GROUPS, Targets};
 use crate::{Lanes, Settings};
 use bilateral::Bilateral;
 use breadth::Breadth;
@@ -41,11 +41,13 @@ type Step<'a> = (&'static str, Work<'a>);
 enum Work<'a> {
     /// A lane for each pixel of the listed tiles.
     Pixels(&'a Kernel),
+    /// A lane for four pixels, a group for four tiles.
+    Quads(&'a Kernel),
     /// Whole rows or columns.
     Lines(&'a Axis),
 }
 
-/// Bindings of [`Work::Pixels`]: tiles, input, output, smoothing lengths.
+/// Bindings of [`Work::Pixels`] and [`Work::Quads`]: tiles, input, output, smoothing lengths.
 const PIXEL_SLOTS: [Slot; 4] = [Slot::Read, Slot::Read, Slot::Write, Slot::Read];
 
 impl Smooth {
@@ -102,10 +104,14 @@ impl Smooth {
             let output = &targets.smooth[i % 2];
             let name = format!("smooth/{name}");
             match work {
-                Work::Pixels(kernel) => {
+                Work::Pixels(kernel) | Work::Quads(kernel) => {
+                    let grid = match work {
+                        Work::Quads(_) => Grid::IndirectAt(&targets.tiles, QUAD_GROUPS),
+                        _ => Grid::Indirect(&targets.tiles),
+                    };
                     let buffers = [&targets.tiles, input, output, &targets.smoothing_lengths];
                     let resources = buffers.map(wgpu::Buffer::as_entire_binding);
-                    recorder.run(&name, kernel, &resources, &Grid::Indirect(&targets.tiles));
+                    recorder.run(&name, kernel, &resources, &grid);
                 }
                 Work::Lines(axis) => axis.run(recorder, &name, self.lanes, (input, output), targets),
             }

@@ -28,10 +28,10 @@ impl NarrowRange {
     pub fn steps(&self, iterations: u32) -> Vec<Step<'_>> {
         let mut steps = Vec::new();
         for _ in 0..iterations {
-            steps.push(("narrow-range-x", Work::Pixels(&self.x)));
-            steps.push(("narrow-range-y", Work::Pixels(&self.y)));
+            steps.push(("narrow-range-x", Work::Quads(&self.x)));
+            steps.push(("narrow-range-y", Work::Quads(&self.y)));
         }
-        steps.push(("narrow-range-cleanup", Work::Pixels(&self.cleanup)));
+        steps.push(("narrow-range-cleanup", Work::Quads(&self.cleanup)));
         steps
     }
 }
