@@ -16,12 +16,15 @@ pub(crate) fn threads() -> usize {
 
 /// The results of all pieces of work, in their order; each piece has a thread of its own, the first one the caller's.
 pub(crate) fn map<T: Send, R: Send>(pieces: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    if pieces.len() < 2 {
+        return pieces.into_iter().map(work).collect();
+    }
     let mut pieces = pieces.into_iter();
-    let Some(first) = pieces.next() else { return Vec::new() };
+    let first = pieces.next();
     let work = &work;
     thread::scope(|scope| {
         let others: Vec<_> = pieces.map(|piece| scope.spawn(move || work(piece))).collect();
-        let mut results = vec![work(first)];
+        let mut results: Vec<R> = first.map(work).into_iter().collect();
         for other in others {
             match other.join() {
                 Ok(result) => results.push(result),
