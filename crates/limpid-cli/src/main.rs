@@ -4,7 +4,6 @@ mod adapters;
 mod bench;
 mod cli;
 mod console;
-mod environment;
 mod failure;
 mod info;
 mod looks;

@@ -1,6 +1,5 @@
 //! `limpid view`: the interactive viewer.
 
-use crate::environment;
 use crate::failure::Failure;
 use clap::Args;
 use limpid_shot::{Options, config};
@@ -39,7 +38,6 @@ pub fn run(arguments: Box<ViewArguments>) -> Result<(), Failure> {
         sequence,
         plays: play,
         screenshot,
-        read_environment: |path| environment::read(path).map_err(|failure| failure.to_string()),
     })
     .map_err(Failure::Window)
 }

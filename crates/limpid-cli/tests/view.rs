@@ -69,6 +69,68 @@ fn the_window_shows_liquids_of_several_files() {
 }
 
 #[test]
+fn transparent_pictures_are_those_of_render() {
+    let folder = Folder::new();
+    folder.write_pos("cube.pos", &common::cube(6, 0.0));
+    let shared = ["cube.pos", "--size", "240x160", "--background", "transparent"];
+    folder.succeed(&[&["render"], &shared[..], &["-o", "made.png"]].concat());
+    let output = view(&folder, &[&shared[..], &["--screenshot", "seen.png"]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let pixels = |name: &str| image::open(folder.path(name)).unwrap().to_rgba8();
+    let made = pixels("made.png");
+    assert!(pixels("seen.png") == made);
+    let alpha = |least: u8, most: u8| made.pixels().filter(|pixel| (least..=most).contains(&pixel.0[3])).count();
+    assert!(alpha(0, 0) > 1000 && alpha(1, 255) > 1000);
+}
+
+#[test]
+fn a_picture_that_cannot_be_is_refused_in_one_line() {
+    let folder = Folder::new();
+    folder.write("broken.bgeo", [66, 103, 101, 111, 86, 0, 0, 0, 5, 1, 2, 3]);
+    folder.write_pos("cube.pos", &common::cube(6, 0.0));
+    for (arguments, named) in [
+        (["broken.bgeo", "--screenshot", "seen.png"], "broken.bgeo"),
+        (["cube.pos", "--screenshot", "nowhere/seen.png"], "nowhere/seen.png"),
+    ] {
+        let output = view(&folder, &arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && said.contains(named) && said.trim().lines().count() == 1, "{said}");
+    }
+    assert_eq!(folder.names(), ["broken.bgeo", "cube.pos"]);
+}
+
+/// By the keys of someone who sits before it: made tiny and large again, flown, taken back; a picture saved each time.
+#[test]
+fn the_window_outlives_a_tiny_size_and_takes_steps_back() {
+    let folder = Folder::new();
+    folder.write_pos("cube.pos", &common::cube(6, 0.0));
+    let script = format!(
+        "{limpid} view cube.pos --size 240x160 & viewer=$!
+        window=$(xdotool search --sync --onlyvisible --name '^limpid$' | head -n 1)
+        save() {{ rm -f limpid_*; while [ ! -e limpid_0001.png ]; do xdotool key --delay 50 ctrl+s; sleep 2; done; }}
+        xdotool windowfocus --sync $window; sleep 2
+        xdotool windowsize $window 1 1; sleep 1
+        xdotool windowsize $window 900 700; sleep 1
+        save; cp limpid_0001.png before.png
+        until save && ! cmp -s limpid_0001.png before.png; do xdotool keydown w; sleep 0.5; xdotool keyup w; sleep 1; done
+        cp limpid_0001.png flown.png
+        until save && cmp -s limpid_0001.png before.png; do xdotool key --delay 50 ctrl+z; sleep 1; done
+        cp limpid_0001.png back.png
+        kill $viewer",
+        limpid = env!("CARGO_BIN_EXE_limpid")
+    );
+    let mut command = Command::new("timeout");
+    command.args(["240", "xvfb-run", "-a", "-s", "-screen 0 1024x768x24", "sh", "-c", &script]);
+    let output = command.current_dir(folder.path("")).output().unwrap();
+    let pixels = |name: &str| image::open(folder.path(name)).map(|image| image.to_rgb8());
+    let pixels = |name: &str| pixels(name).unwrap_or_else(|error| panic!("{name}: {error}; {output:?}"));
+    folder.succeed(&["render", "cube.pos", "--size", "240x160", "-o", "made.png"]);
+    assert!(pixels("before.png") == pixels("made.png"));
+    assert!(pixels("flown.png") != pixels("made.png"));
+    assert!(pixels("back.png") == pixels("made.png"));
+}
+
+#[test]
 fn without_a_display_it_says_so() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_limpid"));
     let output = command.arg("view").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();

@@ -9,6 +9,7 @@ mod chosen;
 mod colormap;
 pub mod config;
 mod diffuse;
+pub mod environment;
 mod error;
 mod frame;
 mod inputs;

@@ -1,5 +1,7 @@
 //! Moving the camera by mouse, touch and keys.
 
+use crate::fingers::Gesture;
+use crate::held::Held;
 use eframe::egui::{self, Key, PointerButton};
 use glam::{DMat3, DVec3};
 use limpid_shot::Pose;
@@ -14,15 +16,22 @@ const STEEPEST: f64 = 1.55;
 const FLIGHT: f64 = 0.6;
 
 /// How the camera has been moved in a frame; None: not at all.
-pub fn moved(ui: &egui::Ui, response: &egui::Response, pose: Pose, up: DVec3, view_height_world: f64) -> Option<Pose> {
+pub fn moved(
+    ui: &egui::Ui,
+    response: &egui::Response,
+    gesture: Option<Gesture>,
+    held: &Held,
+    pose: Pose,
+    up: DVec3,
+    world_per_point: f64,
+) -> Option<Pose> {
     let mut next = pose;
     let drag = response.drag_delta();
     let (modifiers, seconds) = ui.input(|input| (input.modifiers, f64::from(input.stable_dt.min(0.1))));
-    let world_per_point = view_height_world / f64::from(response.rect.height().max(1.0));
-    if let Some(touch) = ui.input(|input| input.multi_touch()) {
+    if let Some(Gesture { drag, spread }) = gesture {
         // Two fingers: drag to move, pinch to come nearer.
-        pan(&mut next, touch.translation_delta, world_per_point);
-        dolly(&mut next, -f64::from(touch.zoom_delta.max(1e-3)).ln());
+        pan(&mut next, drag, world_per_point);
+        dolly(&mut next, -spread.ln());
     } else if response.dragged_by(PointerButton::Primary) && !modifiers.shift {
         orbit(&mut next, drag, up);
     } else if response.dragged_by(PointerButton::Secondary) && modifiers.command {
@@ -30,12 +39,13 @@ pub fn moved(ui: &egui::Ui, response: &egui::Response, pose: Pose, up: DVec3, vi
     } else if response.dragged() {
         pan(&mut next, drag, world_per_point);
     }
-    if response.hovered() {
+    // egui makes a zoom of two fingers too.
+    if gesture.is_none() && response.hovered() {
         let (scroll, zoom) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
         dolly(&mut next, -f64::from(scroll.y) * DOLLY - f64::from(zoom.max(1e-3)).ln());
     }
     if !ui.ctx().egui_wants_keyboard_input() {
-        fly(ui, &mut next, up, seconds);
+        fly(ui, held, &mut next, up, seconds);
     }
     (next != pose).then_some(next)
 }
@@ -78,11 +88,8 @@ fn dolly(pose: &mut Pose, by: f64) {
 }
 
 /// W, A, S, D, Q and E: through the scene; with Shift faster. Arrows turn the view.
-fn fly(ui: &egui::Ui, pose: &mut Pose, up: DVec3, seconds: f64) {
-    let held = |key: Key| ui.input(|input| f64::from(u8::from(input.key_down(key))));
-    if ui.input(|input| input.modifiers.command) {
-        return;
-    }
+fn fly(ui: &egui::Ui, keys: &Held, pose: &mut Pose, up: DVec3, seconds: f64) {
+    let held = |key: Key| keys.amount(key);
     let (right, _) = axes(pose);
     let offset = pose.target - pose.eye;
     let way = (held(Key::W) - held(Key::S)) * offset.normalize()

@@ -1,6 +1,7 @@
 //! What the viewer and the world around it say to each other: files dropped, a page's script, commands of a terminal.
 
 use crate::frames::Source;
+use crate::pace::Grade;
 use std::sync::{Arc, Mutex, MutexGuard};
 
 /// Something to do at the next picture.
@@ -35,6 +36,8 @@ pub struct Status {
     pub frames: usize,
     /// How many pictures have been drawn.
     pub drawn: u64,
+    /// How finely the picture is drawn that is shown; None: there is none.
+    pub grade: Option<Grade>,
     /// Whether everything asked for is drawn.
     pub is_settled: bool,
     /// Particles in the frame.
@@ -43,6 +46,8 @@ pub struct Status {
     pub problems: Vec<String>,
     /// The last picture brought back.
     pub png: Option<Vec<u8>>,
+    /// Why the viewer cannot go on.
+    pub failure: Option<String>,
 }
 
 /// Both, shared.
@@ -61,6 +66,12 @@ impl Desk {
     /// All that has been asked for.
     pub fn take(&self) -> Vec<Command> {
         std::mem::take(&mut lock(&self.inbox))
+    }
+
+    /// Gives up. There may be no window left to say so in.
+    pub fn fail(&self, reason: String) {
+        crate::announce_failure(&reason);
+        lock(&self.status).failure.get_or_insert(reason);
     }
 
     /// How things are.

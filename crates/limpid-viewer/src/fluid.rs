@@ -3,7 +3,7 @@
 use limpid_headless::{Painter, device_descriptor};
 use limpid_io::ParticleSet;
 use limpid_shot::{FrameParticles, Options, Paints, Props, Size, Stage, Survey, config};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use wasm_bindgen::prelude::*;
 
 /// A fluid on a canvas: create, give it particles, draw.
@@ -18,7 +18,43 @@ pub struct Fluid {
     format: wgpu::TextureFormat,
     options: Options,
     particles: Option<(Arc<ParticleSet>, Survey)>,
+    failure: Arc<Failure>,
     size: [u32; 2],
+}
+
+/// What the device has said since it was last asked.
+#[derive(Default)]
+struct Failure(Mutex<Option<(String, IsFinal)>>);
+
+/// Whether the device is gone.
+type IsFinal = bool;
+
+impl Failure {
+    fn watch(self: &Arc<Self>, device: &wgpu::Device) {
+        let (refused, lost) = (Arc::clone(self), Arc::clone(self));
+        device.on_uncaptured_error(Arc::new(move |error| refused.note(format!("the device refuses: {error}"), false)));
+        device.set_device_lost_callback(move |_, reason| {
+            let reason = reason.trim().trim_end_matches('.');
+            lost.note(format!("the graphics device was lost ({reason}): create the fluid anew"), true);
+        });
+    }
+
+    fn note(&self, text: String, is_final: IsFinal) {
+        let mut noted = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if !noted.as_ref().is_some_and(|(_, is_final)| *is_final) {
+            *noted = Some((text, is_final));
+        }
+    }
+
+    fn check(&self) -> Result<(), JsError> {
+        let mut noted = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some((text, is_final)) = noted.take() else { return Ok(()) };
+        let error = JsError::new(&text);
+        if is_final {
+            *noted = Some((text, is_final));
+        }
+        Err(error)
+    }
 }
 
 #[wasm_bindgen]
@@ -37,8 +73,9 @@ impl Fluid {
         let painter = Painter::new(&device, &queue);
         let blitter = wgpu::util::TextureBlitter::new(&device, format);
         let options = Options::defaults();
-        let (particles, size) = (None, [0; 2]);
-        Ok(Self { canvas, surface, device, queue, painter, blitter, format, options, particles, size })
+        let (particles, size, failure) = (None, [0; 2], Arc::<Failure>::default());
+        failure.watch(&device);
+        Ok(Self { canvas, surface, device, queue, painter, blitter, format, options, particles, failure, size })
     }
 
     /// The particles: x, y, z of each in world units, and the radius of all (half their spacing at rest); without it, it is
@@ -69,8 +106,10 @@ impl Fluid {
         Ok(())
     }
 
-    /// Draws on the canvas, in as many pixels as it has (its attributes width and height).
+    /// Draws on the canvas, in as many pixels as it has (its attributes width and height). Fails where the picture cannot be
+    /// drawn, what the device refused of an earlier one, and always after the device was lost: then create another fluid.
     pub fn draw(&mut self) -> Result<(), JsError> {
+        self.failure.check()?;
         let Some((set, survey)) = &mut self.particles else { return Ok(()) };
         let size = [self.canvas.width().max(1), self.canvas.height().max(1)];
         if self.size != size {

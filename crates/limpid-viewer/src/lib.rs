@@ -8,12 +8,16 @@ mod book;
 mod camera;
 mod controls;
 mod desk;
+mod fingers;
 mod frames;
+mod held;
 mod link;
 mod pace;
 mod picture;
+mod playback;
 mod premultiply;
 mod save;
+mod stand;
 mod times;
 
 #[cfg(target_arch = "wasm32")]
@@ -26,6 +30,6 @@ mod web;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{Opening, run};
 #[cfg(not(target_arch = "wasm32"))]
-use native::{page_address, receive_dropped, show_address};
+use native::{announce_failure, page_address, receive_dropped, show_address};
 #[cfg(target_arch = "wasm32")]
-use web::{page_address, receive_dropped, show_address};
+use web::{announce_failure, page_address, receive_dropped, show_address};

@@ -5,10 +5,10 @@ use crate::desk::{Command, Desk};
 use crate::frames::Source;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use limpid_headless::{Image, choose, device_descriptor};
+use limpid_headless::{choose, device_descriptor};
 use limpid_io::Sequence;
 use limpid_shot::Options;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What the window opens with.
@@ -23,25 +23,25 @@ pub struct Opening {
     pub plays: bool,
     /// Where to save the first whole picture (the last frame's, if it plays) before closing the window.
     pub screenshot: Option<PathBuf>,
-    /// Reads a picture of light from all around.
-    pub read_environment: fn(&Path) -> Result<Image, String>,
 }
 
 /// Shows the window until it is closed.
 ///
 /// # Errors
-/// There is no display or no adapter.
+/// There is no display or no adapter; the device was lost; the screenshot cannot be written.
 pub fn run(opening: Opening) -> Result<(), String> {
-    let Opening { options, has_size, sequence, plays, screenshot, read_environment } = opening;
+    let Opening { options, has_size, sequence, plays, screenshot } = opening;
     let viewport = egui::ViewportBuilder::default().with_title("limpid").with_inner_size([1280.0, 800.0]);
     let wgpu_options = WgpuConfiguration { wgpu_setup: setup(options.adapter.clone()), ..Default::default() };
     let native = eframe::NativeOptions { viewport, wgpu_options, ..Default::default() };
-    let start = Start { options, has_size, plays, screenshot, read_environment };
+    let start = Start { options, has_size, plays, screenshot, adapter: String::new() };
+    let desk = Desk::default();
+    let of_viewer = desk.clone();
     let outcome = eframe::run_native(
         "limpid",
         native,
         Box::new(move |context| {
-            let mut viewer = Viewer::new(context, start, Desk::default())?;
+            let mut viewer = Viewer::new(context, start, of_viewer)?;
             if let Some(sequence) = sequence {
                 let with_source = |frame: limpid_io::Frame| (frame.clone(), Source::Path(frame.path));
                 viewer.open(&context.egui_ctx, sequence.frames.into_iter().map(with_source).collect());
@@ -49,7 +49,10 @@ pub fn run(opening: Opening) -> Result<(), String> {
             Ok(Box::new(viewer))
         }),
     );
-    outcome.map_err(|error| format!("no window: {error}; a display is needed (over ssh: xvfb-run, or limpid render)"))
+    outcome
+        .map_err(|error| format!("no window: {error}; a display is needed (over ssh: xvfb-run, or limpid render)"))?;
+    let failure = desk.status().failure.take();
+    failure.map_or(Ok(()), Err)
 }
 
 /// The adapter and device that `limpid render` would take.
@@ -71,6 +74,9 @@ pub fn receive_dropped(_: &egui::Context, desk: &Desk, files: Vec<egui::DroppedF
         desk.put(Command::Open(files.iter().map(|file| Source::Path(file.path().to_owned())).collect()));
     }
 }
+
+/// [`run`] returns it when the window has closed.
+pub fn announce_failure(_: &str) {}
 
 /// Where the viewer's page is; a window has none.
 pub fn page_address() -> String {

@@ -14,6 +14,8 @@ pub use web_time::Instant;
 const SMOOTH_MS: f64 = 60.0;
 /// One that takes longer is drawn at half the size while it moves, ms.
 const BEARABLE_MS: f64 = 150.0;
+/// Pixels of a draft to each of a rough picture.
+const ROUGH_PIXELS: f64 = 4.0;
 /// How long nothing must change before the whole picture is drawn.
 const REST: Duration = Duration::from_millis(150);
 
@@ -52,6 +54,7 @@ pub struct Pace {
     ms: [Option<f64>; 3],
     has_begun: [bool; 3],
     flight: Option<Flight>,
+    has_finished: bool,
     changed: Option<Instant>,
 }
 
@@ -62,16 +65,21 @@ struct Flight {
 }
 
 impl Pace {
-    /// How to draw a picture that moves.
+    /// How to draw a picture that moves, or the first: roughly, until it is known that there is time for more.
     pub fn moving(&self) -> Grade {
-        let [whole, draft, _] = self.ms;
+        let [whole, draft, rough] = self.ms;
         if whole.is_some_and(|ms| ms <= SMOOTH_MS) {
-            Grade::Whole
-        } else if draft.is_none_or(|ms| ms <= BEARABLE_MS) {
-            Grade::Draft
-        } else {
-            Grade::Rough
+            return Grade::Whole;
         }
+        match draft.or(rough.map(|ms| ROUGH_PIXELS * ms)) {
+            Some(ms) if ms <= BEARABLE_MS => Grade::Draft,
+            _ => Grade::Rough,
+        }
+    }
+
+    /// Whether a picture has been drawn and is done.
+    pub fn has_finished(&self) -> bool {
+        self.has_finished
     }
 
     /// What is to be drawn has changed.
@@ -91,6 +99,7 @@ impl Pace {
         let Some(done) = flight.done.get() else { return true };
         self.note(flight.grade, (*done - flight.begun).as_secs_f64() * 1000.0);
         self.flight = None;
+        self.has_finished = true;
         false
     }
 
@@ -110,6 +119,10 @@ impl Pace {
         // The first of its kind waits for its pipelines.
         if std::mem::replace(&mut self.has_begun[index], true) || ms <= SMOOTH_MS {
             self.ms[index] = Some(ms);
+            if grade == Grade::Rough && ROUGH_PIXELS * ms <= BEARABLE_MS {
+                // The window has become smaller, or the particles fewer: time for drafts again.
+                self.ms[Grade::Draft as usize] = None;
+            }
         }
     }
 }
@@ -121,14 +134,19 @@ mod tests {
     #[test]
     fn pictures_are_as_fine_as_there_is_time_for() {
         let mut pace = Pace::default();
-        assert_eq!(pace.moving(), Grade::Draft);
+        assert_eq!(pace.moving(), Grade::Rough);
         // The first one says little.
+        pace.note(Grade::Rough, 500.0);
         pace.note(Grade::Whole, 900.0);
-        pace.note(Grade::Draft, 500.0);
+        assert_eq!(pace.moving(), Grade::Rough);
+        pace.note(Grade::Rough, 30.0);
         assert_eq!(pace.moving(), Grade::Draft);
+        pace.note(Grade::Draft, 500.0);
         pace.note(Grade::Draft, 400.0);
         assert_eq!(pace.moving(), Grade::Rough);
-        pace.note(Grade::Draft, 100.0);
+        pace.note(Grade::Rough, 100.0);
+        assert_eq!(pace.moving(), Grade::Rough);
+        pace.note(Grade::Rough, 30.0);
         assert_eq!(pace.moving(), Grade::Draft);
         pace.note(Grade::Whole, 20.0);
         assert_eq!(pace.moving(), Grade::Whole);

@@ -253,11 +253,10 @@ impl Picture {
         self.drawn_size = size;
     }
 
-    /// What to put into the window, and its size in pixels.
-    pub fn texture(&self, shows_buffer: bool) -> Option<(TextureId, [u32; 2])> {
+    /// What to put into the window.
+    pub fn texture(&self, shows_buffer: bool) -> Option<TextureId> {
         let buffer = self.shown_buffer.as_ref().filter(|_| shows_buffer);
-        let id = buffer.map(egui::TextureHandle::id).or(self.texture)?;
-        Some((id, self.drawn_size))
+        buffer.map(egui::TextureHandle::id).or(self.texture)
     }
 
     /// Takes the buffer to be shown when it has arrived; true if it is on its way or has just come.

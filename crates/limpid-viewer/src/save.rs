@@ -29,9 +29,22 @@ pub fn save(stem: &str, extension: &str, bytes: &[u8]) -> Result<String, String>
     let folder = std::env::current_dir().map_err(|error| format!("the working folder is gone ({error})"))?;
     let free = (1..).map(|n| folder.join(format!("{stem}_{n:04}.{extension}"))).find(|path| !path.exists());
     let path = free.ok_or("no name is free")?;
-    std::fs::write(&path, bytes)
-        .map_err(|error| format!("{}: cannot be written ({error}); start limpid in another folder", path.display()))?;
+    write(&path, bytes).map_err(|error| format!("{error}; start limpid in another folder"))?;
     Ok(path.display().to_string())
+}
+
+/// Writes a file that appears when it is whole.
+///
+/// # Errors
+/// It cannot be written.
+pub fn write(path: &std::path::Path, bytes: &[u8]) -> Result<(), String> {
+    let mut unfinished = path.as_os_str().to_owned();
+    unfinished.push(".part");
+    let written = std::fs::write(&unfinished, bytes).and_then(|()| std::fs::rename(&unfinished, path));
+    written.map_err(|error| {
+        let _ = std::fs::remove_file(&unfinished);
+        format!("{}: cannot be written ({error})", path.display())
+    })
 }
 
 /// Hands the file to the browser.

@@ -7,6 +7,8 @@ use std::collections::VecDeque;
 
 /// Pictures in the graph.
 const HISTORY: usize = 120;
+/// Points across the graph and the bars.
+const PANEL_WIDTH: f32 = 230.0;
 /// Pictures over which the rate is taken.
 const COUNTED: usize = 20;
 
@@ -59,7 +61,7 @@ impl Times {
     pub fn show(&self, ui: &mut Ui) {
         egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.vertical(|ui| {
-                ui.set_width(230.0);
+                ui.set_width(PANEL_WIDTH);
                 if self.passes.is_empty() {
                     ui.label("No times yet: this device has no timestamps, or nothing was drawn since.");
                     return;
@@ -67,28 +69,37 @@ impl Times {
                 let last = self.frames.back().copied().unwrap_or(0.0);
                 ui.label(RichText::new(format!("GPU {last:.1} ms")).strong());
                 self.graph(ui);
-                let longest = self.passes.iter().map(|pass| pass.ms).fold(1e-3, f64::max);
-                for pass in self.passes.iter().filter(|pass| pass.ms > 0.01 * longest) {
-                    ui.horizontal(|ui| {
-                        ui.spacing_mut().item_spacing.x = 4.0;
-                        let (rect, _) = ui.allocate_exact_size(vec2(48.0, 9.0), egui::Sense::hover());
-                        let mut bar = rect;
-                        bar.set_width(rect.width() * (pass.ms / longest) as f32);
-                        ui.painter().rect_filled(bar, 1.0, ui.visuals().selection.bg_fill);
-                        ui.add(egui::Label::new(RichText::new(format!("{:6.2}", pass.ms)).small().monospace()));
-                        ui.add(egui::Label::new(RichText::new(&pass.name).small()).truncate());
-                    });
-                }
+                egui::ScrollArea::vertical().show(ui, |ui| self.bars(ui));
             });
         });
     }
 
+    fn bars(&self, ui: &mut Ui) {
+        ui.set_width(PANEL_WIDTH);
+        ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
+        ui.spacing_mut().interact_size.y = 0.0;
+        let longest = self.passes.iter().map(|pass| pass.ms).fold(1e-3, f64::max);
+        for pass in self.passes.iter().filter(|pass| pass.ms > 0.01 * longest) {
+            ui.horizontal(|ui| {
+                let (rect, _) = ui.allocate_exact_size(vec2(48.0, 9.0), egui::Sense::hover());
+                let mut bar = rect;
+                bar.set_width(rect.width() * (pass.ms / longest) as f32);
+                ui.painter().rect_filled(bar, 1.0, ui.visuals().selection.bg_fill);
+                ui.add(egui::Label::new(RichText::new(format!("{:6.2}", pass.ms)).small().monospace()));
+                ui.add(egui::Label::new(RichText::new(&pass.name).small()).truncate());
+            });
+        }
+    }
+
     fn graph(&self, ui: &mut Ui) {
-        let (rect, _) = ui.allocate_exact_size(vec2(230.0, 48.0), egui::Sense::hover());
-        let most = self.frames.iter().copied().fold(1e-3, f64::max);
+        let (rect, _) = ui.allocate_exact_size(vec2(PANEL_WIDTH, 48.0), egui::Sense::hover());
+        // Those that waited for their pipelines would flatten all others.
+        let mut sorted: Vec<f64> = self.frames.iter().copied().collect();
+        sorted.sort_by(f64::total_cmp);
+        let most = 2.0 * sorted.get(sorted.len() / 2).copied().unwrap_or_default().max(1e-3);
         let at = |(i, ms): (usize, &f64)| {
             let x = rect.left() + rect.width() * i as f32 / (HISTORY - 1) as f32;
-            pos2(x, rect.bottom() - rect.height() * (ms / most) as f32)
+            pos2(x, rect.bottom() - rect.height() * (ms / most).min(1.0) as f32)
         };
         ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
         let line: Vec<_> = self.frames.iter().enumerate().map(at).collect();

@@ -5,9 +5,9 @@ use crate::desk::{Command, Desk};
 use crate::frames::Source;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use limpid_headless::{Image, device_descriptor};
+use limpid_headless::device_descriptor;
 use limpid_shot::Options;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use wasm_bindgen::prelude::*;
 
@@ -20,9 +20,9 @@ pub struct Handle {
     files: Vec<Source>,
 }
 
-/// Starts the viewer on a canvas.
+/// Starts the viewer on a canvas; `adapter` is what it calls the device.
 #[wasm_bindgen]
-pub async fn start(canvas: web_sys::HtmlCanvasElement) -> Result<Handle, JsValue> {
+pub async fn start(canvas: web_sys::HtmlCanvasElement, adapter: String) -> Result<Handle, JsValue> {
     let desk = Desk::default();
     let runner = eframe::WebRunner::new();
     let mut setup = WgpuSetupCreateNew::without_display_handle();
@@ -30,8 +30,7 @@ pub async fn start(canvas: web_sys::HtmlCanvasElement) -> Result<Handle, JsValue
     setup.device_descriptor = Arc::new(device_descriptor);
     let wgpu_options = WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() };
     let options = eframe::WebOptions { wgpu_options, ..Default::default() };
-    let start =
-        Start { options: Options::defaults(), has_size: false, plays: false, screenshot: None, read_environment };
+    let start = Start { options: Options::defaults(), has_size: false, plays: false, screenshot: None, adapter };
     let (sender, context) = std::sync::mpsc::channel();
     let of_app = desk.clone();
     let create = move |creation: &eframe::CreationContext<'_>| {
@@ -133,30 +132,29 @@ impl Handle {
         self.desk.status().is_settled
     }
 
+    /// How finely the picture is drawn that is shown: "whole", or coarser while it moves, "draft" or "rough".
+    #[wasm_bindgen(getter)]
+    pub fn grade(&self) -> Option<String> {
+        self.desk.status().grade.map(|grade| format!("{grade:?}").to_lowercase())
+    }
+
+    /// Why the viewer has stopped, if it has; the window gets an event `limpid-failure` with it as its detail.
+    #[wasm_bindgen(getter)]
+    pub fn failure(&self) -> Option<String> {
+        let panic = || self.runner.panic_summary().map(|summary| summary.message());
+        self.desk.status().failure.clone().or_else(panic)
+    }
+
     /// What the viewer says is wrong, one line each.
     #[wasm_bindgen(getter)]
     pub fn problems(&self) -> Vec<String> {
-        let own = self.runner.panic_summary().map(|summary| summary.message());
-        self.desk.status().problems.iter().cloned().chain(own).collect()
+        self.desk.status().problems.clone()
     }
 
     fn tell(&self, command: Command) {
         self.desk.put(command);
         self.ctx.request_repaint();
     }
-}
-
-/// Reads a picture of light that was dropped on the page.
-fn read_environment(path: &Path) -> Result<Image, String> {
-    let bad = |problem: &str| format!("{}: {problem}", path.display());
-    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hdr")) {
-        return Err(bad("is no .hdr picture; convert it to one, or use limpid view"));
-    }
-    let bytes = limpid_mesh::files::read(path).map_err(|_| bad("is not there; drop it on the page"))?;
-    let decoded = image::load_from_memory_with_format(&bytes, image::ImageFormat::Hdr);
-    let decoded =
-        decoded.map_err(|error| bad(&format!("is no whole hdr picture ({error}); check the file")))?.into_rgb32f();
-    Ok(Image { size: [decoded.width(), decoded.height()], channels: 3, values: decoded.into_raw() })
 }
 
 /// Files dropped on the page.
@@ -176,6 +174,16 @@ pub fn receive_dropped(ctx: &egui::Context, desk: &Desk, files: Vec<egui::Droppe
         desk.put(Command::Open(sources));
         ctx.request_repaint();
     });
+}
+
+/// Tells the page, which can still show it.
+pub fn announce_failure(reason: &str) {
+    let init = web_sys::CustomEventInit::new();
+    init.set_detail(&reason.into());
+    let event = web_sys::CustomEvent::new_with_event_init_dict("limpid-failure", &init);
+    if let (Some(window), Ok(event)) = (web_sys::window(), event) {
+        let _ = window.dispatch_event(&event);
+    }
 }
 
 /// Opens the browser's choice of files, which the page hands to [`Handle::add`].

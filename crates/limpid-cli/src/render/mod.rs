@@ -6,11 +6,12 @@ mod partial;
 mod progress;
 mod timings;
 
+use crate::console;
 use crate::failure::Failure;
 use crate::write::{write_aov, write_layers, write_picture};
-use crate::{console, environment};
 use clap::Args;
 use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
+use limpid_shot::environment;
 use limpid_shot::{Diffuse, FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;

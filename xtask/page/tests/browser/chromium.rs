@@ -170,12 +170,66 @@ impl Chromium {
     }
 
     /// The picture that the viewer has drawn.
-    pub fn picture(&mut self) -> image::RgbImage {
+    pub fn picture(&mut self) -> image::RgbaImage {
         self.run("viewer.grab()");
         self.wait("viewer.png()");
         let bytes = self.run("Array.from(viewer.png())");
         let bytes: Vec<u8> = serde_json::from_value(bytes).unwrap();
-        image::load_from_memory(&bytes).unwrap().to_rgb8()
+        image::load_from_memory(&bytes).unwrap().to_rgba8()
+    }
+
+    /// Lets the page write to the clipboard, and download into a folder.
+    pub fn permit(&mut self, downloads: &Path) {
+        self.call(
+            "Browser.grantPermissions",
+            json!({ "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"] }),
+        );
+        let behavior = json!({ "behavior": "allow", "downloadPath": downloads.display().to_string() });
+        self.call("Browser.setDownloadBehavior", behavior);
+    }
+
+    /// Drops files on the page, all at once; scripts say what is in them.
+    pub fn drop(&mut self, files: &[(&str, &str)]) {
+        let adds: String =
+            files.iter().map(|(name, bytes)| format!("transfer.items.add(new File([{bytes}], {name:?}));")).collect();
+        self.run(&format!(
+            "(async () => {{
+                const transfer = new DataTransfer();
+                {adds}
+                document.getElementById('view').dispatchEvent(
+                    new DragEvent('drop', {{ dataTransfer: transfer, bubbles: true, cancelable: true }}));
+            }})()"
+        ));
+    }
+
+    /// The screen.
+    pub fn screen(&mut self) -> image::RgbaImage {
+        image::load_from_memory(&self.screenshot()).unwrap().to_rgba8()
+    }
+
+    /// The same as a PNG file.
+    pub fn screenshot(&mut self) -> Vec<u8> {
+        let answer = self.call("Page.captureScreenshot", json!({ "format": "png" }));
+        self.run(&format!("Array.from(atob({}), (byte) => byte.charCodeAt(0))", answer["data"]))
+            .as_array()
+            .map(|bytes| bytes.iter().filter_map(|byte| byte.as_u64()).map(|byte| byte as u8).collect())
+            .unwrap_or_default()
+    }
+
+    /// Puts another tab before the page.
+    pub fn hide(&mut self) {
+        let other = self.call("Target.createTarget", json!({ "url": "about:blank" }));
+        self.call("Target.activateTarget", json!({ "targetId": other["targetId"] }));
+    }
+
+    /// Puts the page before all others.
+    pub fn show(&mut self) {
+        self.call("Page.bringToFront", json!({}));
+    }
+
+    /// Takes the device away from the page, as a driver that crashes does.
+    pub fn lose_device(&mut self) {
+        self.call("Browser.crashGpuProcess", json!({}));
     }
 
     /// Processor time that all of the browser's processes have taken, on Linux.
@@ -202,7 +256,12 @@ impl Chromium {
     }
 
     pub fn click(&mut self, at: (f64, f64)) {
-        self.drag(at, at);
+        self.mouse("Moved", at);
+        self.pause(60);
+        // At once: what is held for long is no click.
+        self.mouse("Pressed", at);
+        self.mouse("Released", at);
+        self.pause(60);
     }
 
     pub fn mouse(&mut self, kind: &str, (x, y): (f64, f64)) {
