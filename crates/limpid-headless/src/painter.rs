@@ -24,6 +24,8 @@ pub struct Painter {
     display: Display,
     images: Option<Images>,
     partial: Option<Partial>,
+    /// Whether a first picture's pipelines have been built.
+    is_warm: bool,
 }
 
 /// The textures of one size (handles, cheap to clone).
@@ -92,6 +94,7 @@ impl Painter {
             display: Display::new(device, SHOWN),
             images: None,
             partial: None,
+            is_warm: false,
         }
     }
 
@@ -176,6 +179,10 @@ impl Painter {
         let images = self.images_of(device, shot.size)?;
         let (scene, depth, picture) = (view_of(&images.scene), view_of(&images.depth), view_of(&images.picture));
         let gpu = (device, queue);
+        if !self.is_warm {
+            self.build_pipelines(gpu, shot, particles, &scene, &depth)?;
+            self.is_warm = true;
+        }
         let Shot { environment, bodies, settings, .. } = shot;
         // Whatever the background: the fluid mirrors the same surroundings before all of them.
         let casters = self.bodies.from_lights(device, queue, encoder, environment, bodies);
@@ -235,6 +242,31 @@ impl Painter {
         let images = images.unwrap_or_else(|| Images::new(device, size));
         self.images = Some(images.clone());
         Ok(images)
+    }
+
+    /// Those of one picture, on all cores. Others are built when they are used.
+    fn build_pipelines(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        shot: &Shot<'_>,
+        particles: &Particles,
+        scene: &wgpu::TextureView,
+        depth: &wgpu::TextureView,
+    ) -> Result<(), Error> {
+        let Shot { environment, bodies, settings, .. } = shot;
+        let casters = &mut self.bodies;
+        let mut pipelines = self.renderer.pipelines_of(device, |renderer, encoder| {
+            let casters = casters.from_lights(device, queue, encoder, environment, bodies);
+            renderer.cast_shadow(device, queue, encoder, particles, casters, environment, settings)?;
+            renderer.prepare(device, queue, encoder, &frame_of(shot, particles, scene, depth))
+        })?;
+        pipelines.extend(self.bodies.pipelines(bodies));
+        pipelines.extend(self.display.pipelines());
+        if shot.background == Background::Scene {
+            pipelines.extend(self.backdrop.pipelines(&surroundings_of(shot, None, self.renderer.environment_map())));
+        }
+        pipelines.build();
+        Ok(())
     }
 
     fn draw_scene(

@@ -1,7 +1,7 @@
 //! The procedural surroundings drawn as a scene: `backdrop.wgsl`.
 
 use crate::environment::EnvironmentUniform;
-use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
+use crate::gpu::{Module, Pipelines, Raster, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::module;
 use crate::renderer::{Nothing, SettingsUniform, frame_layout};
 use crate::shadow::FloorShadow;
@@ -24,11 +24,17 @@ pub struct BackdropFrame<'a> {
     pub map: Option<&'a EnvironmentMap>,
 }
 
+impl BackdropFrame<'_> {
+    pub(crate) fn uniform(&self) -> EnvironmentUniform {
+        self.environment.uniform(self.view, self.shadow.map(|shadow| &shadow.tint), self.map)
+    }
+}
+
 /// Draws an [`Environment`] where a host has no scene of its own. Writes reversed depth: build the view with
 /// [`View::perspective`] or [`View::orthographic`] and compare with `Greater`.
 pub struct Backdrop {
     /// For plain environments and elaborate ones.
-    pipelines: [wgpu::RenderPipeline; 2],
+    triangles: [Raster; 2],
     frame_group: wgpu::BindGroup,
     layout: wgpu::BindGroupLayout,
     no_shadow: wgpu::Buffer,
@@ -38,17 +44,8 @@ pub struct Backdrop {
 }
 
 impl Backdrop {
-    /// Builds the pipeline for one kind of target.
+    /// Readies it for one kind of target.
     pub fn new(device: &wgpu::Device, target: &TargetFormat) -> Self {
-        let module = module!(
-            device,
-            "backdrop",
-            "frame.wgsl",
-            "fullscreen.wgsl",
-            "light_maps.wgsl",
-            "environment.wgsl",
-            "backdrop.wgsl"
-        );
         let frame = frame_layout(device);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("backdrop"),
@@ -61,10 +58,8 @@ impl Backdrop {
         let settings = uniform_buffer::<SettingsUniform>(device, "no settings");
         let environment = uniform_buffer::<EnvironmentUniform>(device, "backdrop environment");
         Self {
-            pipelines: [0.0, 1.0].map(|is_elaborate| {
-                let shader = (&module, "backdrop", &[("ELABORATE", is_elaborate)][..]);
-                target.fullscreen_pipeline_with(device, shader, &[Some(&frame), Some(&layout)], None)
-            }),
+            triangles: [plain_module(), elaborate_module()]
+                .map(|module| target.fullscreen(device, &module, "backdrop", &[Some(&frame), Some(&layout)], None)),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             no_map: Nothing::new(device).color,
             no_shadow: storage_buffer(device, "no shadow", 4),
@@ -72,6 +67,17 @@ impl Backdrop {
             view,
             environment,
         }
+    }
+
+    /// What it draws such a frame with.
+    pub fn pipelines(&self, frame: &BackdropFrame<'_>) -> Pipelines {
+        let mut pipelines = Pipelines::default();
+        pipelines.push_raster(self.triangle(&frame.uniform()));
+        pipelines
+    }
+
+    fn triangle(&self, environment: &EnvironmentUniform) -> &Raster {
+        &self.triangles[usize::from(environment.is_elaborate())]
     }
 
     /// Draws into the host's pass. Its uniforms are written to the queue at once: one view per submission.
@@ -82,9 +88,9 @@ impl Backdrop {
         pass: &mut wgpu::RenderPass<'_>,
         frame: &BackdropFrame<'_>,
     ) {
-        let BackdropFrame { view, size, environment, shadow, map } = *frame;
+        let BackdropFrame { view, size, shadow, map, .. } = *frame;
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
-        let uniform = environment.uniform(view, shadow.map(|shadow| &shadow.tint), map);
+        let uniform = frame.uniform();
         queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&uniform));
         let resources = [
             self.environment.as_entire_binding(),
@@ -92,9 +98,33 @@ impl Backdrop {
             wgpu::BindingResource::TextureView(map.map_or(&self.no_map, |map| &map.view)),
         ];
         let group = bind(device, &self.layout, &resources);
-        pass.set_pipeline(&self.pipelines[usize::from(uniform.is_elaborate())]);
+        pass.set_pipeline(self.triangle(&uniform).pipeline());
         pass.set_bind_group(0, &self.frame_group, &[]);
         pass.set_bind_group(1, &group, &[]);
         pass.draw(0..3, 0..1);
     }
+}
+
+fn plain_module() -> Module {
+    module!(
+        "backdrop",
+        "frame.wgsl",
+        "fullscreen.wgsl",
+        "light_maps.wgsl",
+        "environment.wgsl",
+        "plain.wgsl",
+        "backdrop.wgsl"
+    )
+}
+
+fn elaborate_module() -> Module {
+    module!(
+        "elaborate backdrop",
+        "frame.wgsl",
+        "fullscreen.wgsl",
+        "light_maps.wgsl",
+        "environment.wgsl",
+        "elaborate.wgsl",
+        "backdrop.wgsl"
+    )
 }

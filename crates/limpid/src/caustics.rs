@@ -74,7 +74,6 @@ impl Caustics {
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let frame = frame_layout(device);
         let send = module!(
-            device,
             "caustics",
             "frame.wgsl",
             "passes/tile_pixel.wgsl",
@@ -84,7 +83,7 @@ impl Caustics {
             "caustics.wgsl"
         );
         let resolve =
-            module!(device, "caustics resolve", "frame.wgsl", "light_maps.wgsl", "lens.wgsl", "caustics_resolve.wgsl");
+            module!("caustics resolve", "frame.wgsl", "light_maps.wgsl", "lens.wgsl", "caustics_resolve.wgsl");
         let [read, write, uniform] = [Slot::Read, Slot::Write, Slot::Uniform];
         let view = uniform_buffer::<ViewUniform>(device, "sun's view of the liquid");
         let settings = uniform_buffer::<SettingsUniform>(device, "caustics settings");

@@ -1,7 +1,7 @@
 //! The display transform: `display.wgsl`.
 
 use crate::TargetFormat;
-use crate::gpu::{Slot, bind, slot_entries, uniform_buffer};
+use crate::gpu::{Pipelines, Raster, Slot, bind, slot_entries, uniform_buffer};
 use crate::passes::module;
 use bytemuck::{Pod, Zeroable};
 
@@ -27,24 +27,31 @@ pub(crate) struct DisplayUniform {
 /// Shows a linear HDR picture: exposure, tone map, straight alpha. The target should be of an sRGB format.
 pub struct Display {
     layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
+    triangle: Raster,
     uniform: wgpu::Buffer,
 }
 
 impl Display {
-    /// Builds the pipeline for a target of this format.
+    /// Readies it for a target of this format.
     pub fn new(device: &wgpu::Device, color: wgpu::TextureFormat) -> Self {
-        let module = module!(device, "display", "fullscreen.wgsl", "display.wgsl");
+        let module = module!("display", "fullscreen.wgsl", "display.wgsl");
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("display"),
             entries: &slot_entries(&[Slot::Uniform, Slot::Color], wgpu::ShaderStages::FRAGMENT),
         });
         let target = TargetFormat { color, depth: None, samples: 1 };
         Self {
-            pipeline: target.fullscreen_pipeline(device, &module, "show", &[Some(&layout)], None),
+            triangle: target.fullscreen(device, &module, "show", &[Some(&layout)], None),
             uniform: uniform_buffer::<DisplayUniform>(device, "display"),
             layout,
         }
+    }
+
+    /// What it draws with.
+    pub fn pipelines(&self) -> Pipelines {
+        let mut pipelines = Pipelines::default();
+        pipelines.push_raster(&self.triangle);
+        pipelines
     }
 
     /// Draws the picture `linear` (premultiplied, of the target's size) into the pass; `exposure` multiplies its light.
@@ -60,7 +67,7 @@ impl Display {
         let uniform = DisplayUniform { exposure, tone_map: u32::from(tone_map == ToneMap::Neutral) };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let resources = [self.uniform.as_entire_binding(), wgpu::BindingResource::TextureView(linear)];
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(self.triangle.pipeline());
         pass.set_bind_group(0, &bind(device, &self.layout, &resources), &[]);
         pass.draw(0..3, 0..1);
     }

@@ -194,7 +194,7 @@ pub(crate) struct EnvironmentUniform {
 }
 
 impl EnvironmentUniform {
-    /// Whether there is more than sky, sun and the fluid's own shadow: `environment.wgsl`'s `ELABORATE`.
+    /// Whether there is more than sky, sun and the fluid's own shadow: `elaborate.wgsl`, or else `plain.wgsl`.
     pub fn is_elaborate(&self) -> bool {
         self.map_levels > 0 || self.light_count > 1 || self.scene_texels > 0 || self.caustic_texels > 0
     }

@@ -1,5 +1,7 @@
 //! The host's picture that the fluid is drawn into.
 
+use crate::gpu::{Module, Raster, RasterSource};
+
 /// The host's render target that [`Renderer::composite`](crate::Renderer::composite) draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TargetFormat {
@@ -12,38 +14,27 @@ pub struct TargetFormat {
 }
 
 impl TargetFormat {
-    pub(crate) fn fullscreen_pipeline(
+    /// One that is tested against depth and writes it.
+    pub(crate) fn fullscreen(
         &self,
         device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        fragment: &str,
+        module: &Module,
+        fragment: &'static str,
         layouts: &[Option<&wgpu::BindGroupLayout>],
         blend: Option<wgpu::BlendState>,
-    ) -> wgpu::RenderPipeline {
-        self.fullscreen_pipeline_with(device, (module, fragment, &[]), layouts, blend)
-    }
-
-    /// The same with the fragment shader's overrides set.
-    pub(crate) fn fullscreen_pipeline_with(
-        &self,
-        device: &wgpu::Device,
-        shader: (&wgpu::ShaderModule, &str, &[(&str, f64)]),
-        layouts: &[Option<&wgpu::BindGroupLayout>],
-        blend: Option<wgpu::BlendState>,
-    ) -> wgpu::RenderPipeline {
+    ) -> Raster {
         let color = wgpu::ColorTargetState { format: self.color, blend, write_mask: wgpu::ColorWrites::ALL };
-        let targets = [Some(color)];
-        pipeline(device, shader, layouts, &targets, (self.depth.map(tested_and_written), self.samples))
+        fullscreen(device, (module, fragment), layouts, Some(color), (self.depth.map(tested_and_written), self.samples))
     }
 
     /// One that covers what is there whatever its depth, and leaves the depth alone.
-    pub(crate) fn overlay_pipeline(
+    pub(crate) fn overlay(
         &self,
         device: &wgpu::Device,
-        module: &wgpu::ShaderModule,
-        fragment: &str,
+        module: &Module,
+        fragment: &'static str,
         layouts: &[Option<&wgpu::BindGroupLayout>],
-    ) -> wgpu::RenderPipeline {
+    ) -> Raster {
         let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let color = wgpu::ColorTargetState { format: self.color, blend, write_mask: wgpu::ColorWrites::ALL };
         let untouched = |(format, _)| wgpu::DepthStencilState {
@@ -51,20 +42,20 @@ impl TargetFormat {
             ..tested_and_written((format, wgpu::CompareFunction::Always))
         };
         let state = (self.depth.map(untouched), self.samples);
-        pipeline(device, (module, fragment, &[]), layouts, &[Some(color)], state)
+        fullscreen(device, (module, fragment), layouts, Some(color), state)
     }
 }
 
 /// One that writes every pixel's depth and no colour.
-pub(crate) fn depth_pipeline(
+pub(crate) fn fullscreen_depth(
     device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    fragment: &str,
+    module: &Module,
+    fragment: &'static str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
     format: wgpu::TextureFormat,
-) -> wgpu::RenderPipeline {
+) -> Raster {
     let depth = tested_and_written((format, wgpu::CompareFunction::Always));
-    pipeline(device, (module, fragment, &[]), layouts, &[], (Some(depth), 1))
+    fullscreen(device, (module, fragment), layouts, None, (Some(depth), 1))
 }
 
 fn tested_and_written((format, compare): (wgpu::TextureFormat, wgpu::CompareFunction)) -> wgpu::DepthStencilState {
@@ -77,39 +68,29 @@ fn tested_and_written((format, compare): (wgpu::TextureFormat, wgpu::CompareFunc
     }
 }
 
-fn pipeline(
+fn fullscreen(
     device: &wgpu::Device,
-    (module, fragment, constants): (&wgpu::ShaderModule, &str, &[(&str, f64)]),
+    (module, fragment): (&Module, &'static str),
     layouts: &[Option<&wgpu::BindGroupLayout>],
-    targets: &[Option<wgpu::ColorTargetState>],
+    color: Option<wgpu::ColorTargetState>,
     (depth, samples): (Option<wgpu::DepthStencilState>, u32),
-) -> wgpu::RenderPipeline {
+) -> Raster {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(fragment),
         bind_group_layouts: layouts,
         immediate_size: 0,
     });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("fullscreen"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: depth,
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(fragment),
-            compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-            targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let source = RasterSource {
+        module: module.clone(),
+        layout,
+        vertex: "fullscreen",
+        vertices: None,
+        fragment: Some(fragment),
+        color,
+        depth,
+        samples,
+    };
+    Raster::new(device, source)
 }
 
 /// Textures of a [`TargetFormat`], for [`crate::Renderer::composite_onto`].

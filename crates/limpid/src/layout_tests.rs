@@ -18,6 +18,7 @@ const SHADE: &str = concat!(
     include_str!("passes/tile_pixel.wgsl"),
     include_str!("light_maps.wgsl"),
     include_str!("environment.wgsl"),
+    include_str!("elaborate.wgsl"),
     include_str!("scene_depth.wgsl"),
     include_str!("passes/interface.wgsl"),
     include_str!("passes/body.wgsl"),
@@ -30,6 +31,7 @@ const SHADE: &str = concat!(
     include_str!("passes/droplets_image.wgsl"),
     include_str!("passes/droplets_behind.wgsl"),
     include_str!("passes/detail_image.wgsl"),
+    include_str!("passes/lamps.wgsl"),
     include_str!("passes/shade.wgsl"),
 );
 

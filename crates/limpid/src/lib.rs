@@ -97,7 +97,7 @@ pub use environment::{Environment, Lamp, MOST_LAMPS};
 pub use environment_map::EnvironmentMap;
 pub use error::Error;
 pub use framing::{Bounds, Framing};
-pub use gpu::{PassTime, Profiler};
+pub use gpu::{PassTime, Pipelines, Profiler};
 pub use host_target::{TargetFormat, TargetViews};
 pub use lanes::Lanes;
 pub use motion::Motion;

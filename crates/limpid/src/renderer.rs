@@ -4,7 +4,7 @@ mod parts;
 
 use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
-use crate::gpu::{Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
+use crate::gpu::{Pipelines, Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::partial::Conditions;
 use crate::passes::{
     Composite, Curvature, Detail, DropletImages, DropletsPass, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform,
@@ -112,6 +112,8 @@ pub struct Renderer {
     parts: Option<Parts>,
     prepared: Option<Prepared>,
     profiler: Option<Profiler>,
+    /// While [`Self::pipelines_of`] runs.
+    asked: Option<Pipelines>,
 }
 
 /// A frame between its particles and its picture.
@@ -181,8 +183,7 @@ pub(crate) fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 impl Renderer {
     /// Readies the passes. `target` is what [`Self::composite`] will draw into.
     ///
-    /// Most pipelines are built by the first frame that needs them: prepare one with the settings to come, into an encoder that is
-    /// then dropped, while all else is loaded, and no frame has to wait.
+    /// Pipelines are built by the first frame that needs them, one by one; [`Self::pipelines_of`] has those of a frame built together.
     pub fn new(device: &wgpu::Device, target: &TargetFormat) -> Self {
         let layout = frame_layout(device);
         Self {
@@ -215,6 +216,7 @@ impl Renderer {
             parts: None,
             prepared: None,
             profiler: None,
+            asked: None,
             frame_layout: layout,
         }
     }
@@ -252,6 +254,7 @@ impl Renderer {
             parts: None,
             prepared: None,
             profiler: None,
+            asked: None,
             frame_layout: self.frame_layout.clone(),
         }
     }
@@ -274,7 +277,13 @@ impl Renderer {
         buffers.check()?;
         let gather = self.gather.get_or_insert_with(|| Gather::new(device, &self.frame_layout));
         let frame_group = self.shadow.frame_group(); // unused, but every kernel has one
-        let recorder = &mut Recorder { device, encoder, frame_group, profiler: self.profiler.as_mut() };
+        let recorder = &mut Recorder {
+            device,
+            encoder,
+            frame_group,
+            profiler: self.profiler.as_mut(),
+            asked: self.asked.as_mut(),
+        };
         gather.encode(recorder, queue, buffers, particles);
         Ok(())
     }
@@ -283,6 +292,33 @@ impl Renderer {
     /// do not say that they run on a CPU.
     pub fn set_lanes(&mut self, lanes: Lanes) {
         self.smooth.lanes = lanes;
+    }
+
+    /// The pipelines that a frame needs, for [`Pipelines::build`]: while all else is loaded, so that no frame has to wait, or before the
+    /// first one, since together they are built on all cores. `record` calls what the frame will call of this renderer,
+    /// [`Self::cast_shadow`] and [`Self::prepare`] say, with its settings. Nothing is drawn; afterwards no frame is
+    /// prepared, no shadow cast, and particles that were gathered are to be gathered again.
+    ///
+    /// # Errors
+    /// Those of `record`.
+    pub fn pipelines_of(
+        &mut self,
+        device: &wgpu::Device,
+        record: impl FnOnce(&mut Self, &mut wgpu::CommandEncoder) -> Result<(), Error>,
+    ) -> Result<Pipelines, Error> {
+        let mut asked = Pipelines::default();
+        asked.push_raster(self.composite.raster());
+        self.asked = Some(asked);
+        // Never submitted.
+        let recorded = record(self, &mut device.create_command_encoder(&Default::default()));
+        self.abandon_parts();
+        let has_droplets = self.prepared.take().is_some_and(|prepared| prepared.droplets.is_some());
+        (self.shadow_tint, self.shadow_is_new) = (None, false);
+        let mut asked = self.asked.take().unwrap_or_default();
+        if let Some(droplets) = self.droplets.as_ref().filter(|_| has_droplets) {
+            asked.push_raster(droplets.raster());
+        }
+        recorded.map(|()| asked)
     }
 
     /// What the frames to come reflect in place of the procedural sky; None: that sky.
@@ -328,8 +364,13 @@ impl Renderer {
     ) -> Result<(), Error> {
         let optics = &settings.stirred(particles.paint_average(), particles.reference_radius);
         self.shadow.reserve(device, environment);
-        let recorder =
-            &mut Recorder { device, encoder, frame_group: self.shadow.frame_group(), profiler: self.profiler.as_mut() };
+        let recorder = &mut Recorder {
+            device,
+            encoder,
+            frame_group: self.shadow.frame_group(),
+            profiler: self.profiler.as_mut(),
+            asked: self.asked.as_mut(),
+        };
         self.shadow.encode(recorder, queue, particles, environment, scene);
         let absorption = optics.extinction_per_world(particles.reference_radius);
         let scene_texels = if scene.is_some() { SCENE_SHADOW_TEXELS } else { 0 };
@@ -413,7 +454,13 @@ impl Renderer {
 
         let frame_group =
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
-        let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
+        let recorder = &mut Recorder {
+            device,
+            encoder,
+            frame_group: &frame_group,
+            profiler: self.profiler.as_mut(),
+            asked: self.asked.as_mut(),
+        };
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         recorder.write(queue, &self.view, &view);
         let uniform = settings_uniform(frame, &targets);
@@ -451,7 +498,13 @@ impl Renderer {
         begun: &Begun,
     ) {
         let Begun { targets, frame_group, .. } = begun;
-        let recorder = &mut Recorder { device, encoder, frame_group, profiler: self.profiler.as_mut() };
+        let recorder = &mut Recorder {
+            device,
+            encoder,
+            frame_group,
+            profiler: self.profiler.as_mut(),
+            asked: self.asked.as_mut(),
+        };
         let balls = if settings.anisotropy.enabled {
             let skip_hidden = settings.anisotropy.skip_hidden;
             self.ellipsoids.encode(recorder, particles, &mut self.splat, targets, skip_hidden)
@@ -480,7 +533,13 @@ impl Renderer {
             depth: scene_depth.as_ref().unwrap_or(&self.nothing.depth),
             environment_map: self.environment_map.as_ref().map_or(&self.nothing.color, |map| &map.view),
         };
-        let recorder = &mut Recorder { device, encoder, frame_group: &frame_group, profiler: self.profiler.as_mut() };
+        let recorder = &mut Recorder {
+            device,
+            encoder,
+            frame_group: &frame_group,
+            profiler: self.profiler.as_mut(),
+            asked: self.asked.as_mut(),
+        };
         self.tiles.encode(recorder, &targets);
         if settings.fixed_thickness.is_none() {
             self.thickness.collapse(recorder, &targets.thickness);
@@ -567,7 +626,8 @@ impl Renderer {
         let (targets, prepared) = (self.targets.as_ref()?, self.prepared.as_ref()?);
         let size = targets.picture_size;
         let curvature = storage_buffer(device, "curvature", 4 * u64::from(size[0]) * u64::from(size[1]));
-        let recorder = &mut Recorder { device, encoder, frame_group: &prepared.frame_group, profiler: None };
+        let recorder =
+            &mut Recorder { device, encoder, frame_group: &prepared.frame_group, profiler: None, asked: None };
         self.curvature.encode(recorder, &prepared.smoothed, &curvature, size);
         Some(curvature)
     }

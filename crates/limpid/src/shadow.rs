@@ -71,7 +71,6 @@ pub(crate) const CAUSTICS_FIRST_WORD: u32 = (WORDS * TEXELS + SCENE_TEXELS) as u
 impl Shadow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let splat = module!(
-            device,
             "shadow",
             "frame.wgsl",
             "passes/shape.wgsl",
@@ -80,7 +79,7 @@ impl Shadow {
             "light_maps.wgsl",
             "shadow.wgsl"
         );
-        let resolve = module!(device, "shadow resolve", "frame.wgsl", "light_maps.wgsl", "shadow_resolve.wgsl");
+        let resolve = module!("shadow resolve", "frame.wgsl", "light_maps.wgsl", "shadow_resolve.wgsl");
         let splat = |entry_point, slots: &[Slot]| {
             Kernel::with_constants(device, frame, &splat, entry_point, slots, &[ellipsoids_constant(false)])
         };

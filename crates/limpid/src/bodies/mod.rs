@@ -7,7 +7,7 @@ pub use mesh::{Material, Mesh, PartSlices, TextureSlices};
 
 use crate::backdrop::BackdropFrame;
 use crate::environment::EnvironmentUniform;
-use crate::gpu::{Slot, bind, slot_entries, storage_buffer, uniform_buffer};
+use crate::gpu::{Module, Pipelines, Raster, RasterSource, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::passes::module;
 use crate::renderer::{SettingsUniform, frame_layout};
 use crate::shadow::SCENE_SHADOW_TEXELS;
@@ -73,11 +73,11 @@ pub(crate) struct BodyUniform {
 
 /// Draws bodies in the light of an [`crate::Environment`]. Writes reversed depth, as [`crate::Backdrop`] does.
 pub struct Bodies {
-    opaque: wgpu::RenderPipeline,
-    far_pane: wgpu::RenderPipeline,
-    near_pane: wgpu::RenderPipeline,
-    rim: wgpu::RenderPipeline,
-    caster: wgpu::RenderPipeline,
+    opaque: Raster,
+    far_pane: Raster,
+    near_pane: Raster,
+    rim: Raster,
+    caster: Raster,
     /// What the sun sees.
     /// A layer for each light, as many as were asked for so far.
     from_lights: wgpu::Texture,
@@ -92,14 +92,14 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Builds the pipelines for one kind of target.
+    /// Readies them for one kind of target.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, target: &TargetFormat) -> Self {
         let module = module!(
-            device,
             "bodies",
             "../frame.wgsl",
             "../light_maps.wgsl",
             "../environment.wgsl",
+            "../elaborate.wgsl",
             "body.wgsl",
             "glass.wgsl"
         );
@@ -114,17 +114,17 @@ impl Bodies {
             bind_group_layouts: &[Some(&frame), Some(&light_layout), Some(&body_layout)],
             immediate_size: 0,
         });
-        let pipeline = |fragment: &str, blend| mesh_pipeline(device, &layout, &module, fragment, blend, target);
+        let raster = |fragment, blend| mesh_raster(device, &layout, &module, fragment, blend, target);
         let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let view = uniform_buffer::<ViewUniform>(device, "bodies' view");
         // The frame's group wants settings, of which these shaders use none.
         let settings = uniform_buffer::<SettingsUniform>(device, "no settings");
         Self {
-            opaque: pipeline("opaque", None),
-            far_pane: pipeline("far_pane", over),
-            near_pane: pipeline("near_pane", over),
-            rim: pipeline("rim", over),
-            caster: caster_pipeline(device, &layout, &module),
+            opaque: raster("opaque", None),
+            far_pane: raster("far_pane", over),
+            near_pane: raster("near_pane", over),
+            rim: raster("rim", over),
+            caster: caster_raster(device, &layout, &module),
             from_lights: shadow_texture(device, 1),
             frame_group: bind(device, &frame, &[view.as_entire_binding(), settings.as_entire_binding()]),
             light_layout,
@@ -141,6 +141,18 @@ impl Bodies {
             view,
             environment: uniform_buffer::<EnvironmentUniform>(device, "bodies' environment"),
         }
+    }
+
+    /// What they draw these with.
+    pub fn pipelines(&self, bodies: &[Body<'_>]) -> Pipelines {
+        let mut pipelines = Pipelines::default();
+        let glass = [&self.far_pane, &self.near_pane, &self.rim];
+        let opaque = [&self.opaque, &self.caster];
+        for body in bodies {
+            let rasters = if body.look == Look::Glass { &glass[..] } else { &opaque };
+            rasters.iter().for_each(|raster| pipelines.push_raster(raster));
+        }
+        pipelines
     }
 
     /// Records what the lights see of the opaque bodies, for [`crate::Renderer::cast_shadow`]; None: there are none.
@@ -190,7 +202,7 @@ impl Bodies {
             }),
             ..Default::default()
         });
-        pass.set_pipeline(&self.caster);
+        pass.set_pipeline(self.caster.pipeline());
         pass.set_bind_group(0, &self.frame_group, &[]);
         let light = [
             self.environment.as_entire_binding(),
@@ -216,15 +228,14 @@ impl Bodies {
         bodies: &[Body<'_>],
         layer: Layer,
     ) {
-        let BackdropFrame { view, size, environment, shadow, map } = *frame;
+        let BackdropFrame { view, size, shadow, map, .. } = *frame;
         let bodies = bodies.iter().filter(|body| (body.look == Look::Glass) == (layer != Layer::Opaque));
         let bodies: Vec<&Body<'_>> = bodies.collect();
         if bodies.is_empty() {
             return;
         }
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view.uniform(size, Scale::Full, DVec3::ZERO)));
-        let environment = environment.uniform(view, shadow.map(|shadow| &shadow.tint), map);
-        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&environment));
+        queue.write_buffer(&self.environment, 0, bytemuck::bytes_of(&frame.uniform()));
         let light = [
             self.environment.as_entire_binding(),
             shadow.map_or(&self.no_shadow, |shadow| shadow.map).as_entire_binding(),
@@ -234,11 +245,12 @@ impl Bodies {
         pass.set_bind_group(0, &self.frame_group, &[]);
         pass.set_bind_group(1, &light, &[]);
         for body in bodies {
-            pass.set_pipeline(match layer {
+            let raster = match layer {
                 Layer::Opaque => &self.opaque,
                 Layer::FarGlass => &self.far_pane,
                 Layer::NearGlass => &self.near_pane,
-            });
+            };
+            pass.set_pipeline(raster.pipeline());
             for part in &body.mesh.parts {
                 let uniform = body.uniform(view, part);
                 self.triangles(device, queue, pass, &uniform, &part.textures, (&part.vertices, part.count));
@@ -274,7 +286,7 @@ impl Bodies {
             ..BodyUniform::zeroed()
         };
         let buffer = mesh::vertex_buffer(device, queue, &vertices);
-        pass.set_pipeline(&self.rim);
+        pass.set_pipeline(self.rim.pipeline());
         let textures = [self.blank.clone(), self.blank.clone()];
         self.triangles(device, queue, pass, &uniform, &textures, (&buffer, vertices.len() as u32));
     }
@@ -361,33 +373,19 @@ fn body_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 }
 
 /// Depth alone, in the sun's view.
-fn caster_pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-) -> wgpu::RenderPipeline {
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("caster"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(VERTICES)],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState::default(),
+fn caster_raster(device: &wgpu::Device, layout: &wgpu::PipelineLayout, module: &Module) -> Raster {
+    let depth = (wgpu::TextureFormat::Depth32Float, wgpu::CompareFunction::Greater);
+    let source = RasterSource {
+        module: module.clone(),
+        layout: layout.clone(),
+        vertex: "vertex",
+        vertices: Some(VERTICES),
         fragment: None,
-        multiview_mask: None,
-        cache: None,
-    })
+        color: None,
+        depth: Some(depth_state(depth, true)),
+        samples: 1,
+    };
+    Raster::new(device, source)
 }
 
 const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
@@ -396,44 +394,37 @@ const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     attributes: &ATTRIBUTES,
 };
 
-fn mesh_pipeline(
+fn mesh_raster(
     device: &wgpu::Device,
     layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    fragment: &str,
+    module: &Module,
+    fragment: &'static str,
     blend: Option<wgpu::BlendState>,
     target: &TargetFormat,
-) -> wgpu::RenderPipeline {
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(VERTICES)],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: target.depth.map(|(format, compare)| wgpu::DepthStencilState {
-            format,
-            // What is seen through does not hide.
-            depth_write_enabled: Some(blend.is_none()),
-            depth_compare: Some(compare),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: target.samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(fragment),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: target.color,
-                blend,
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+) -> Raster {
+    let source = RasterSource {
+        module: module.clone(),
+        layout: layout.clone(),
+        vertex: "vertex",
+        vertices: Some(VERTICES),
+        fragment: Some(fragment),
+        color: Some(wgpu::ColorTargetState { format: target.color, blend, write_mask: wgpu::ColorWrites::ALL }),
+        // What is seen through does not hide.
+        depth: target.depth.map(|depth| depth_state(depth, blend.is_none())),
+        samples: target.samples,
+    };
+    Raster::new(device, source)
+}
+
+fn depth_state(
+    (format, compare): (wgpu::TextureFormat, wgpu::CompareFunction),
+    is_written: bool,
+) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(is_written),
+        depth_compare: Some(compare),
+        stencil: Default::default(),
+        bias: Default::default(),
+    }
 }

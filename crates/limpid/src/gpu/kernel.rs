@@ -1,5 +1,7 @@
 //! A compute pipeline with the bind groups all kernels share: group 0 is the frame, group 1 the pass's own data.
 
+use super::Module;
+use super::pipelines::without_errors;
 use std::sync::{Arc, OnceLock};
 
 /// What a kernel's binding is; its place in the list is its binding number in group 1.
@@ -52,8 +54,8 @@ pub(crate) fn bind(
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
 }
 
-/// A compute pipeline, built when it first runs: a frame needs about half of them, and a driver takes tens of milliseconds for
-/// each. Clones share it.
+/// A compute pipeline, built when it first runs or with others ([`super::Pipelines`]): a frame needs about half of them, and a driver
+/// takes tens of milliseconds for each. Clones share it.
 #[derive(Clone)]
 pub(crate) struct Kernel {
     pub(super) layout: wgpu::BindGroupLayout,
@@ -61,7 +63,8 @@ pub(crate) struct Kernel {
 }
 
 struct Source {
-    module: wgpu::ShaderModule,
+    device: wgpu::Device,
+    module: Module,
     entry_point: String,
     constants: Vec<(String, f64)>,
     pipeline_layout: wgpu::PipelineLayout,
@@ -72,7 +75,7 @@ impl Kernel {
     pub fn new(
         device: &wgpu::Device,
         frame_layout: &wgpu::BindGroupLayout,
-        module: &wgpu::ShaderModule,
+        module: &Module,
         entry_point: &str,
         slots: &[Slot],
     ) -> Self {
@@ -83,7 +86,7 @@ impl Kernel {
     pub fn with_constants(
         device: &wgpu::Device,
         frame_layout: &wgpu::BindGroupLayout,
-        module: &wgpu::ShaderModule,
+        module: &Module,
         entry_point: &str,
         slots: &[Slot],
         constants: &[(&str, f64)],
@@ -98,6 +101,7 @@ impl Kernel {
             immediate_size: 0,
         });
         let source = Source {
+            device: device.clone(),
             module: module.clone(),
             entry_point: entry_point.to_owned(),
             constants: constants.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
@@ -107,18 +111,38 @@ impl Kernel {
         Self { layout, source: Arc::new(source) }
     }
 
-    pub(super) fn pipeline(&self, device: &wgpu::Device) -> &wgpu::ComputePipeline {
-        let Source { module, entry_point, constants, pipeline_layout, pipeline } = &*self.source;
-        pipeline.get_or_init(|| {
-            let constants: Vec<_> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry_point),
-                layout: Some(pipeline_layout),
-                module,
-                entry_point: Some(entry_point),
-                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-                cache: None,
-            })
+    pub(super) fn is_built(&self) -> bool {
+        self.source.pipeline.get().is_some()
+    }
+
+    pub(super) fn source_bytes(&self) -> usize {
+        self.source.module.len()
+    }
+
+    pub(super) fn pipeline(&self) -> &wgpu::ComputePipeline {
+        self.source.pipeline.get_or_init(|| self.source.build())
+    }
+
+    pub(super) fn build_ahead(&self) {
+        match without_errors(&self.source.device, || self.source.build()) {
+            // Another may have been quicker.
+            Some(pipeline) => drop(self.source.pipeline.set(pipeline)),
+            None => self.source.module.forget(),
+        }
+    }
+}
+
+impl Source {
+    fn build(&self) -> wgpu::ComputePipeline {
+        let Self { device, module, entry_point, constants, pipeline_layout, .. } = self;
+        let constants: Vec<_> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(pipeline_layout),
+            module: &module.parsed(device),
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            cache: None,
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Recording of compute passes into the host's encoder.
 
 use super::kernel::bind;
-use super::{Kernel, Profiler, uniform_buffer};
+use super::{Kernel, Pipelines, Profiler, Raster, uniform_buffer};
 
 /// How many workgroups a kernel runs on.
 pub(crate) enum Grid<'a> {
@@ -21,18 +21,30 @@ pub(crate) struct Recorder<'a> {
     pub encoder: &'a mut wgpu::CommandEncoder,
     pub frame_group: &'a wgpu::BindGroup,
     pub profiler: Option<&'a mut Profiler>,
+    /// Collects the pipelines of what is recorded, in place of recording it; the encoder is dropped then.
+    pub asked: Option<&'a mut Pipelines>,
 }
 
 impl Recorder<'_> {
     /// The same recording for kernels that see another frame: another camera, other settings.
     pub fn in_frame<'b>(&'b mut self, frame_group: &'b wgpu::BindGroup) -> Recorder<'b> {
-        Recorder { device: self.device, encoder: self.encoder, frame_group, profiler: self.profiler.as_deref_mut() }
+        Recorder {
+            device: self.device,
+            encoder: self.encoder,
+            frame_group,
+            profiler: self.profiler.as_deref_mut(),
+            asked: self.asked.as_deref_mut(),
+        }
     }
 
     /// Records one kernel as a compute pass of its own, so that it can be timed.
     pub fn run(&mut self, name: &str, kernel: &Kernel, resources: &[wgpu::BindingResource<'_>], grid: &Grid<'_>) {
+        if let Some(asked) = self.asked.as_deref_mut() {
+            asked.push_kernel(kernel);
+            return;
+        }
         let group = bind(self.device, &kernel.layout, resources);
-        let pipeline = kernel.pipeline(self.device);
+        let pipeline = kernel.pipeline();
         let timestamp_writes = self.profiler.as_deref_mut().and_then(|profiler| profiler.compute(name));
         let mut pass =
             self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes });
@@ -48,6 +60,11 @@ impl Recorder<'_> {
             Grid::Indirect(buffer) => pass.dispatch_workgroups_indirect(buffer, 0),
             Grid::IndirectAt(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
         }
+    }
+
+    /// Whether a triangle is not to be drawn, but asked for.
+    pub fn only_asks(&mut self, raster: &Raster) -> bool {
+        self.asked.as_deref_mut().map(|asked| asked.push_raster(raster)).is_some()
     }
 
     /// Fills a uniform buffer before what is recorded next. Unlike a write to the queue it leaves alone what was

@@ -39,7 +39,7 @@ struct GridUniform {
 
 impl Ellipsoids {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "anisotropy", "../frame.wgsl", "shape.wgsl", "grid.wgsl", "anisotropy.wgsl");
+        let module = module!("anisotropy", "../frame.wgsl", "shape.wgsl", "grid.wgsl", "anisotropy.wgsl");
         let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
         Self {
             neighbours: Neighbours::new(device, frame),

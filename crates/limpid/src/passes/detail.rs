@@ -78,9 +78,8 @@ impl DetailUniform {
 impl Detail {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let [read, write, uniform] = [Slot::Read, Slot::Write, Slot::Uniform];
-        let deepest = module!(device, "detail deepest", "../frame.wgsl", "detail_deepest.wgsl");
+        let deepest = module!("detail deepest", "../frame.wgsl", "detail_deepest.wgsl");
         let splat = module!(
-            device,
             "detail splat",
             "../frame.wgsl",
             "../ball.wgsl",
@@ -89,14 +88,8 @@ impl Detail {
             "large_splats.wgsl",
             "detail_splat.wgsl"
         );
-        let apply = module!(
-            device,
-            "detail apply",
-            "../frame.wgsl",
-            "tile_pixel.wgsl",
-            "detail_image.wgsl",
-            "detail_apply.wgsl"
-        );
+        let apply =
+            module!("detail apply", "../frame.wgsl", "tile_pixel.wgsl", "detail_image.wgsl", "detail_apply.wgsl");
         let splat = |entry| {
             let slots = [read, read, read, read, read, uniform, write, write];
             Kernel::with_constants(device, frame, &splat, entry, &slots, &[super::ellipsoids_constant(false)])

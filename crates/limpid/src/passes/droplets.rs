@@ -3,7 +3,7 @@
 
 use super::{ellipsoids_constant, module};
 use crate::droplets::{BUBBLES_UNDER, FOAM_AFLOAT};
-use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, bind, slot_entries, storage_buffer};
+use crate::gpu::{Grid, GrowBuffer, Kernel, Raster, Recorder, Slot, bind, slot_entries, storage_buffer};
 use crate::host_target::TargetFormat;
 use crate::{Frame, Particles, Settings};
 use bytemuck::{Pod, Zeroable};
@@ -19,7 +19,7 @@ pub(crate) struct DropletsPass {
     count: Kernel,
     large: Kernel,
     front_layout: wgpu::BindGroupLayout,
-    front: wgpu::RenderPipeline,
+    front: Raster,
     large_splats: GrowBuffer,
     large_groups: wgpu::Buffer,
     sums: GrowBuffer,
@@ -63,7 +63,6 @@ impl DropletsPass {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, target: &TargetFormat) -> Self {
         let [read, write, uniform, depth] = [Slot::Read, Slot::Write, Slot::Uniform, Slot::Depth];
         let splat = module!(
-            device,
             "droplets splat",
             "../frame.wgsl",
             "../ball.wgsl",
@@ -77,7 +76,6 @@ impl DropletsPass {
             Kernel::with_constants(device, frame, &splat, entry, &slots, &[ellipsoids_constant(false)])
         };
         let front = module!(
-            device,
             "droplets front",
             "../frame.wgsl",
             "../fullscreen.wgsl",
@@ -92,7 +90,7 @@ impl DropletsPass {
             small: kernel("splat_small"),
             count: kernel("count_large"),
             large: kernel("splat_large"),
-            front: target.overlay_pipeline(device, &front, "front", &[Some(frame), Some(&front_layout)]),
+            front: target.overlay(device, &front, "front", &[Some(frame), Some(&front_layout)]),
             front_layout,
             large_splats: GrowBuffer::new("large droplets"),
             large_groups: storage_buffer(device, "large droplet groups", 12),
@@ -138,6 +136,10 @@ impl DropletsPass {
         DropletImages { sums, uniform }
     }
 
+    pub fn raster(&self) -> &Raster {
+        &self.front
+    }
+
     /// What [`Self::draw`] needs of a frame.
     pub fn bind(&self, device: &wgpu::Device, images: &DropletImages) -> wgpu::BindGroup {
         bind(device, &self.front_layout, &[images.sums.as_entire_binding(), images.uniform.as_entire_binding()])
@@ -145,7 +147,7 @@ impl DropletsPass {
 
     /// Draws the droplets before the surface over the host's picture.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, frame: &wgpu::BindGroup, images: &wgpu::BindGroup) {
-        pass.set_pipeline(&self.front);
+        pass.set_pipeline(self.front.pipeline());
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, images, &[]);
         pass.draw(0..3, 0..1);

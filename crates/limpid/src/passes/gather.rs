@@ -55,7 +55,7 @@ fn alignment(device: &wgpu::Device) -> u64 {
 
 impl Gather {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "gather", "gather.wgsl");
+        let module = module!("gather", "gather.wgsl");
         let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
         Self { kernel: Kernel::new(device, frame, &module, "gather", &slots) }
     }

@@ -144,7 +144,6 @@ impl Layers {
 impl Kernels {
     fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let balls = module!(
-            device,
             "sheets",
             "../frame.wgsl",
             "shape.wgsl",
@@ -153,16 +152,10 @@ impl Kernels {
             "slices.wgsl",
             "sheets.wgsl"
         );
-        let images = module!(
-            device,
-            "sheets' images",
-            "../frame.wgsl",
-            "layers_texel.wgsl",
-            "slices.wgsl",
-            "sheets_images.wgsl"
-        );
-        let pack = module!(device, "layers", "../frame.wgsl", "layers_texel.wgsl", "layers_pack.wgsl");
-        let color = module!(device, "layers' colour", "../frame.wgsl", "layers_color.wgsl");
+        let images =
+            module!("sheets' images", "../frame.wgsl", "layers_texel.wgsl", "slices.wgsl", "sheets_images.wgsl");
+        let pack = module!("layers", "../frame.wgsl", "layers_texel.wgsl", "layers_pack.wgsl");
+        let color = module!("layers' colour", "../frame.wgsl", "layers_color.wgsl");
         let [read, write] = [Slot::Read, Slot::Write];
         let of_balls = [read, read, read, read, write, read, write];
         let of_images = [read, write, read, write, read, write, write];

@@ -48,11 +48,8 @@ pub(crate) use upsample::Upsample;
 
 /// What `frame.wgsl` and the parts of a pass say, as one shader module.
 macro_rules! module {
-    ($device:expr, $label:literal, $($part:literal),+) => {
-        $device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some($label),
-            source: wgpu::ShaderSource::Wgsl(concat!($(include_str!($part), "\n"),+).into()),
-        })
+    ($label:literal, $($part:literal),+) => {
+        crate::gpu::Module::new($label, vec![$(include_str!($part)),+])
     };
 }
 pub(crate) use module;

@@ -36,7 +36,7 @@ pub(crate) struct Sorted {
 
 impl Neighbours {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "neighbours", "../frame.wgsl", "grid.wgsl", "neighbours.wgsl");
+        let module = module!("neighbours", "../frame.wgsl", "grid.wgsl", "neighbours.wgsl");
         let [read, write] = [Slot::Read, Slot::Write];
         let slots = [Slot::Uniform, read, read, write, write, write, write];
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &slots);

@@ -12,7 +12,6 @@ pub(crate) struct Normals {
 impl Normals {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(
-            device,
             "normals",
             "../frame.wgsl",
             "tile_pixel.wgsl",

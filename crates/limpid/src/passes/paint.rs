@@ -141,7 +141,6 @@ impl Paint {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let [read, write] = [Slot::Read, Slot::Write];
         let surface = module!(
-            device,
             "paint splat",
             "../frame.wgsl",
             "shape.wgsl",
@@ -153,7 +152,6 @@ impl Paint {
             "paint_splat.wgsl"
         );
         let body = module!(
-            device,
             "paint body",
             "../frame.wgsl",
             "shape.wgsl",

@@ -1,20 +1,20 @@
 //! One depth for each pixel of a scene with several: `resolve_depth.wgsl`.
 
 use super::module;
-use crate::gpu::{Recorder, bind};
-use crate::host_target::depth_pipeline;
+use crate::gpu::{Raster, Recorder, bind};
+use crate::host_target::fullscreen_depth;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 pub(crate) struct ResolveDepth {
     layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
+    triangle: Raster,
     resolved: Option<wgpu::TextureView>,
 }
 
 impl ResolveDepth {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "resolve depth", "../frame.wgsl", "../fullscreen.wgsl", "resolve_depth.wgsl");
+        let module = module!("resolve depth", "../frame.wgsl", "../fullscreen.wgsl", "resolve_depth.wgsl");
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("resolve depth"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -29,13 +29,13 @@ impl ResolveDepth {
             }],
         });
         let layouts = [Some(frame), Some(&layout)];
-        let pipeline = depth_pipeline(device, &module, "resolve_depth", &layouts, FORMAT);
-        Self { layout, pipeline, resolved: None }
+        let triangle = fullscreen_depth(device, &module, "resolve_depth", &layouts, FORMAT);
+        Self { layout, triangle, resolved: None }
     }
 
     /// The same pipeline for another renderer, with a texture of its own.
     pub fn sibling(&self) -> Self {
-        Self { layout: self.layout.clone(), pipeline: self.pipeline.clone(), resolved: None }
+        Self { layout: self.layout.clone(), triangle: self.triangle.clone(), resolved: None }
     }
 
     /// Returns the depth of one sample a pixel.
@@ -49,6 +49,9 @@ impl ResolveDepth {
         let fits = |view: &wgpu::TextureView| [view.texture().width(), view.texture().height()] == size;
         let resolved = self.resolved.take().filter(fits).unwrap_or_else(|| texture(device, size));
         self.resolved = Some(resolved.clone());
+        if recorder.only_asks(&self.triangle) {
+            return resolved;
+        }
         let group = bind(device, &self.layout, &[wgpu::BindingResource::TextureView(scene_depth)]);
         let timestamp_writes = recorder.profiler.as_deref_mut().and_then(|profiler| profiler.render("scene-depth"));
         let mut pass = recorder.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -61,7 +64,7 @@ impl ResolveDepth {
             timestamp_writes,
             ..Default::default()
         });
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(self.triangle.pipeline());
         pass.set_bind_group(0, recorder.frame_group, &[]);
         pass.set_bind_group(1, &group, &[]);
         pass.draw(0..3, 0..1);

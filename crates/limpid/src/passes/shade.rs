@@ -1,8 +1,8 @@
 //! Shading: `shade.wgsl`.
 
-use super::{DropletImages, LiquidsUniform, module};
+use super::{DropletImages, LiquidsUniform};
 use crate::environment::EnvironmentUniform;
-use crate::gpu::{Grid, Kernel, Recorder, Slot, uniform_buffer};
+use crate::gpu::{Grid, Kernel, Module, Recorder, Slot, uniform_buffer};
 use crate::settings::{Fresnel, Optics};
 use crate::targets::Targets;
 use bytemuck::{Pod, Zeroable};
@@ -64,7 +64,8 @@ pub(crate) struct With<'a> {
     pub foam: Option<&'a wgpu::Buffer>,
 }
 
-/// What a frame needs of the shader: its overrides. CPU drivers run both sides of a branch, so there is a kernel for each choice.
+/// What a frame needs of the shader. CPU drivers run both sides of a branch, so there is a kernel for each choice; and what a kernel
+/// lacks altogether no driver has to work through.
 #[derive(Clone, Copy, Default)]
 struct Parts {
     layers: bool,
@@ -77,19 +78,29 @@ struct Parts {
 }
 
 impl Parts {
-    fn list(self) -> [(&'static str, bool); 5] {
-        let Self { layers, droplets, foam, paint, elaborate } = self;
-        [("LAYERS", layers), ("DROPLETS", droplets), ("FOAM", foam), ("PAINT", paint), ("ELABORATE", elaborate)]
+    /// By files of the shader.
+    fn module_index(self) -> usize {
+        usize::from(self.layers) + 2 * usize::from(self.elaborate)
+    }
+
+    /// By its overrides.
+    fn overrides(self) -> [(&'static str, bool); 3] {
+        [("DROPLETS", self.droplets), ("FOAM", self.foam), ("PAINT", self.paint)]
     }
 
     fn index(self) -> usize {
-        self.list().iter().rev().fold(0, |index, (_, is_on)| 2 * index + usize::from(*is_on))
+        self.overrides().iter().fold(self.module_index(), |index, (_, is_on)| 2 * index + usize::from(*is_on))
+    }
+
+    fn of_module(index: usize) -> Self {
+        Self { layers: index & 1 != 0, elaborate: index & 2 != 0, ..Self::default() }
     }
 }
 
 #[derive(Clone)]
 pub(crate) struct Shade {
-    module: wgpu::ShaderModule,
+    /// By [`Parts::module_index`].
+    modules: [Module; 4],
     /// By [`Parts::index`]; made when first asked for.
     kernels: [Option<Kernel>; 32],
     /// What the frame that was written needs, but layers, droplets and foam.
@@ -101,7 +112,7 @@ pub(crate) struct Shade {
 impl Shade {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let mut shade = Self {
-            module: Self::module(device),
+            modules: std::array::from_fn(|index| module_of(Parts::of_module(index))),
             kernels: Default::default(),
             parts: Parts::default(),
             liquids: uniform_buffer::<LiquidsUniform>(device, "liquids"),
@@ -109,30 +120,6 @@ impl Shade {
         };
         shade.reserve(device, frame, &With::default(), true);
         shade
-    }
-
-    fn module(device: &wgpu::Device) -> wgpu::ShaderModule {
-        module!(
-            device,
-            "shade",
-            "../frame.wgsl",
-            "tile_pixel.wgsl",
-            "../light_maps.wgsl",
-            "../environment.wgsl",
-            "../scene_depth.wgsl",
-            "interface.wgsl",
-            "body.wgsl",
-            "layers.wgsl",
-            "through.wgsl",
-            "thickness_levels.wgsl",
-            "paint_sums.wgsl",
-            "paint_shares.wgsl",
-            "paint_optics.wgsl",
-            "droplets_image.wgsl",
-            "droplets_behind.wgsl",
-            "detail_image.wgsl",
-            "shade.wgsl"
-        )
     }
 
     /// Makes the kernels of the frame that was written, for its layers too if it has them.
@@ -167,8 +154,8 @@ impl Shade {
             Slot::Uniform,
             Slot::Uniform,
         ];
-        let constants = parts.list().map(|(name, is_on)| (name, f64::from(u8::from(is_on))));
-        Kernel::with_constants(device, frame, &self.module, "shade", &slots, &constants)
+        let constants = parts.overrides().map(|(name, is_on)| (name, f64::from(u8::from(is_on))));
+        Kernel::with_constants(device, frame, &self.modules[parts.module_index()], "shade", &slots, &constants)
     }
 
     pub fn write(
@@ -218,4 +205,36 @@ impl Shade {
             recorder.run("shade", kernel, &resources, &Grid::Indirect(&targets.tiles));
         }
     }
+}
+
+fn module_of(parts: Parts) -> Module {
+    let (elaborate, lamps) = match parts.elaborate {
+        true => (include_str!("../elaborate.wgsl"), include_str!("lamps.wgsl")),
+        false => (include_str!("../plain.wgsl"), include_str!("no_lamps.wgsl")),
+    };
+    let layers = match parts.layers {
+        true => concat!(include_str!("layers.wgsl"), include_str!("through.wgsl")),
+        false => include_str!("no_layers.wgsl"),
+    };
+    let sources = vec![
+        include_str!("../frame.wgsl"),
+        include_str!("tile_pixel.wgsl"),
+        include_str!("../light_maps.wgsl"),
+        include_str!("../environment.wgsl"),
+        elaborate,
+        include_str!("../scene_depth.wgsl"),
+        include_str!("interface.wgsl"),
+        include_str!("body.wgsl"),
+        layers,
+        include_str!("thickness_levels.wgsl"),
+        include_str!("paint_sums.wgsl"),
+        include_str!("paint_shares.wgsl"),
+        include_str!("paint_optics.wgsl"),
+        include_str!("droplets_image.wgsl"),
+        include_str!("droplets_behind.wgsl"),
+        include_str!("detail_image.wgsl"),
+        lamps,
+        include_str!("shade.wgsl"),
+    ];
+    Module::new("shade", sources)
 }

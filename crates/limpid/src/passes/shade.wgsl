@@ -1,6 +1,7 @@
 // Shading after van der Laan 2009, Eq. 13-15: what is behind the fluid, refracted and absorbed; what is around it,
 // reflected; the sun's highlight; what the body scatters. Linear light in, linear premultiplied colour out.
-// interface.wgsl has what surfaces do, body.wgsl what the liquid between them does.
+// interface.wgsl has what surfaces do, body.wgsl what the liquid between them does; through.wgsl or no_layers.wgsl what is behind, lamps.wgsl
+// or no_lamps.wgsl what lights beside the sun add.
 
 @group(1) @binding(1) var<uniform> liquids: Liquids;
 @group(1) @binding(2) var<uniform> environment: Environment;
@@ -12,9 +13,6 @@
 @group(1) @binding(8) var<storage, read> shadow: array<f32>;
 @group(1) @binding(9) var environment_map: texture_2d<f32>;
 @group(1) @binding(10) var<storage, read> layers: array<vec4f>; // layers.wgsl's, or unused
-
-// Whether the sheets behind the front surface are known.
-override LAYERS: bool = false;
 
 @group(1) @binding(11) var<storage, read> paint_sums: array<u32>;
 @group(1) @binding(12) var<storage, read> droplet_sums: array<u32>; // droplets_image.wgsl's, or unused
@@ -61,6 +59,12 @@ fn sight_at(px: vec2f, depth: f32, normal_thickness: vec4f) -> Sight {
     return Sight(px, depth, position, normalize(ray.direction), normal_thickness.xyz, normal_thickness.w, is_submerged);
 }
 
+// Where a place is seen, in pixels.
+fn px_of(place: vec3f) -> vec2f {
+    let slope = select(place.xy, place.xy / -place.z, is_perspective());
+    return (slope - view.px_zero) / view.px_step;
+}
+
 // The scene through a pixel position, bilinear by hand: works for every float format, filterable or not. Texels that lie in
 // front of the fluid have no say.
 fn scene_color_behind(px: vec2f, depth: f32) -> vec4f {
@@ -97,8 +101,7 @@ fn refracted_px(sight: Sight) -> vec2f {
     let inside = refract(sight.toward, sight.normal, 1.0 / optics.refractive_index);
     let bend = select(optics.refraction, 0.0, sight.is_submerged);
     let exit = sight.position + sight.thickness * (sight.toward + bend * (inside - sight.toward));
-    let slope = select(exit.xy, exit.xy / -exit.z, is_perspective());
-    let bent = (slope - view.px_zero) / view.px_step;
+    let bent = px_of(exit);
     let usable = exit.z < 0.0 && scene_depth_at(bent) > sight.depth;
     return select(sight.px, bent, usable);
 }
@@ -115,25 +118,6 @@ fn surface_light(sight: Sight, reflectance: vec3f, sunlight: vec3f) -> vec3f {
     return reflectance * around + select(glint, vec3f(0.0), sight.is_submerged);
 }
 
-// What the lamps add: their mirror images, and light that comes back out of the body, `share` of what falls in.
-fn lamps_light(sight: Sight, share: vec3f) -> vec3f {
-    let rotation = world_from_view();
-    let normal = rotation * sight.normal;
-    let toward = rotation * sight.toward;
-    let glint = select(GLINT * optics.specular, 0.0, sight.is_submerged);
-    var light = vec3f(0.0);
-    if !ELABORATE {
-        return light;
-    }
-    for (var lamp = 1u; lamp < environment.light_count; lamp++) {
-        let direction = environment.lights[lamp].toward;
-        let highlight = pow(max(dot(normal, normalize(direction - toward)), 0.0), optics.shininess);
-        let shed = lamplight_on_liquid(lamp, rotation * sight.position);
-        light += shed * (glint * highlight + share * light_into(normal, direction));
-    }
-    return light;
-}
-
 // What is behind the front surface and the liquid that it bounds.
 struct Behind {
     color: vec4f, // linear premultiplied
@@ -142,13 +126,8 @@ struct Behind {
     thickness: f32, // of the liquid, world units
 }
 
-fn behind_of(sight: Sight) -> Behind {
-    if LAYERS {
-        let sheet = first_sheet(sight.px, nearness_of(sight.depth));
-        if sheet.found {
-            return through_sheet(sight, sheet);
-        }
-    }
+// The scene straight behind the front surface, bent by that alone.
+fn scene_behind(sight: Sight) -> Behind {
     if settings.background == BACKGROUND_NONE {
         return Behind(vec4f(0.0), 1.0, vec3f(0.0), sight.thickness);
     }

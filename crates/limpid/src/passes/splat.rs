@@ -2,7 +2,7 @@
 
 use super::visible::List;
 use super::{ellipsoids_constant, module};
-use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer};
+use crate::gpu::{Grid, GrowBuffer, Kernel, Module, Recorder, Slot, storage_buffer};
 use crate::particles::Chunk;
 use crate::targets::Targets;
 
@@ -26,12 +26,7 @@ struct Kernels {
 }
 
 impl Kernels {
-    fn new(
-        device: &wgpu::Device,
-        frame: &wgpu::BindGroupLayout,
-        module: &wgpu::ShaderModule,
-        ellipsoids: bool,
-    ) -> Self {
+    fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, module: &Module, ellipsoids: bool) -> Self {
         let [read, write] = [Slot::Read, Slot::Write];
         let slots = [read, read, read, read, write, write, write, write];
         let constants = [ellipsoids_constant(ellipsoids)];
@@ -46,16 +41,8 @@ impl Kernels {
 
 impl Splat {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(
-            device,
-            "splat",
-            "../frame.wgsl",
-            "shape.wgsl",
-            "../ball.wgsl",
-            "balls.wgsl",
-            "covered.wgsl",
-            "splat.wgsl"
-        );
+        let module =
+            module!("splat", "../frame.wgsl", "shape.wgsl", "../ball.wgsl", "balls.wgsl", "covered.wgsl", "splat.wgsl");
         Self {
             spheres: Kernels::new(device, frame, &module, false),
             ellipsoids: Kernels::new(device, frame, &module, true),

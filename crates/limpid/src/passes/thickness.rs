@@ -53,7 +53,6 @@ pub(crate) struct Thickness {
 impl Thickness {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let splat = module!(
-            device,
             "thickness",
             "../frame.wgsl",
             "shape.wgsl",
@@ -63,23 +62,16 @@ impl Thickness {
             "pyramid_box.wgsl",
             "thickness.wgsl"
         );
-        let scene_range = module!(
-            device,
-            "scene range",
-            "../frame.wgsl",
-            "thickness_levels.wgsl",
-            "../scene_depth.wgsl",
-            "scene_range.wgsl"
-        );
+        let scene_range =
+            module!("scene range", "../frame.wgsl", "thickness_levels.wgsl", "../scene_depth.wgsl", "scene_range.wgsl");
         let collapse = module!(
-            device,
             "thickness collapse",
             "../frame.wgsl",
             "thickness_levels.wgsl",
             "hidden.wgsl",
             "thickness_collapse.wgsl"
         );
-        let blur = module!(device, "thickness blur", "../frame.wgsl", "hidden.wgsl", "thickness_blur.wgsl");
+        let blur = module!("thickness blur", "../frame.wgsl", "hidden.wgsl", "thickness_blur.wgsl");
         let range_slots = [Slot::Depth, Slot::Write, Slot::Uniform];
         let splat_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Read, Slot::Write];
         let collapse_slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Read, Slot::Read, Slot::Write];

@@ -9,12 +9,6 @@ const MEETINGS: i32 = 3;
 // In r: as good as infinitely far.
 const FAR: f32 = 1e6;
 
-// Where a place is seen, in pixels.
-fn px_of(place: vec3f) -> vec2f {
-    let slope = select(place.xy, place.xy / -place.z, is_perspective());
-    return (slope - view.px_zero) / view.px_step;
-}
-
 // A place on a ray at a view depth; rays that hardly go deeper end soon.
 fn ray_to(origin: vec3f, direction: vec3f, depth: f32) -> vec3f {
     return origin + direction * (max(depth + origin.z, 0.0) / max(-direction.z, 0.05));
@@ -125,4 +119,13 @@ fn through_sheet(sight: Sight, sheet: FirstSheet) -> Behind {
     let inner = surroundings_for(air * reflected, exit, reflect(inside, normal), max(spread, 0.1));
     let seen = seen_beyond(exit, outside, spread, sight.depth);
     return Behind(seen, 1.0 - air * reflected, inner, sheet.share * sight.thickness);
+}
+
+// What is behind the front surface and the liquid that it bounds.
+fn behind_of(sight: Sight) -> Behind {
+    let sheet = first_sheet(sight.px, nearness_of(sight.depth));
+    if sheet.found {
+        return through_sheet(sight, sheet);
+    }
+    return scene_behind(sight);
 }

@@ -12,7 +12,7 @@ pub(crate) struct Tiles {
 
 impl Tiles {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "tiles", "../frame.wgsl", "tiles.wgsl");
+        let module = module!("tiles", "../frame.wgsl", "tiles.wgsl");
         let slots = [Slot::Write, Slot::Write, Slot::Write, Slot::Write, Slot::Read, Slot::Write];
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &slots);
         Self { list: kernel("list_tiles"), count: kernel("count_tiles") }

@@ -11,7 +11,7 @@ pub(crate) struct Upsample {
 
 impl Upsample {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(device, "upsample", "../frame.wgsl", "../scene_depth.wgsl", "upsample.wgsl");
+        let module = module!("upsample", "../frame.wgsl", "../scene_depth.wgsl", "upsample.wgsl");
         let slots = [
             Slot::Read,
             Slot::Read,

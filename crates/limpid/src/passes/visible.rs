@@ -40,8 +40,7 @@ pub(crate) enum Stage {
 
 impl Visible {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module =
-            module!(device, "visible", "../frame.wgsl", "../ball.wgsl", "covered.wgsl", "grid.wgsl", "visible.wgsl");
+        let module = module!("visible", "../frame.wgsl", "../ball.wgsl", "covered.wgsl", "grid.wgsl", "visible.wgsl");
         let [read, write] = [Slot::Read, Slot::Write];
         let slots = [Slot::Uniform, read, write, read, write, write, write];
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &slots);

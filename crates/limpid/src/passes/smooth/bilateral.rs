@@ -14,7 +14,6 @@ pub(super) struct Bilateral {
 impl Bilateral {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(
-            device,
             "bilateral",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",

@@ -10,7 +10,6 @@ pub(super) struct Breadth(Kernel);
 impl Breadth {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(
-            device,
             "breadth",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",

@@ -54,9 +54,8 @@ pub(crate) fn relations_bytes(size: [u32; 2]) -> u64 {
 
 impl CurvatureFlow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let list = module!(device, "segments", "../../frame.wgsl", "segments.wgsl", "list_segments.wgsl");
+        let list = module!("segments", "../../frame.wgsl", "segments.wgsl", "list_segments.wgsl");
         let lines = module!(
-            device,
             "curvature flow",
             "../../frame.wgsl",
             "../nearness_at.wgsl",
@@ -67,7 +66,6 @@ impl CurvatureFlow {
             "curvature_flow_lines.wgsl"
         );
         let segments = module!(
-            device,
             "curvature flow by segments",
             "../../frame.wgsl",
             "../nearness_at.wgsl",
@@ -78,7 +76,6 @@ impl CurvatureFlow {
             "curvature_flow_segments.wgsl"
         );
         let explicit = module!(
-            device,
             "explicit curvature flow",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",

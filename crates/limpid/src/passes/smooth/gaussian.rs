@@ -13,7 +13,6 @@ pub(super) struct Gaussian {
 impl Gaussian {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(
-            device,
             "gaussian",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",

@@ -26,7 +26,6 @@ pub(super) struct LiquidLengths {
 impl LiquidLengths {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let module = module!(
-            device,
             "liquid lengths",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",

@@ -13,14 +13,8 @@ pub(super) struct NarrowRange {
 
 impl NarrowRange {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!(
-            device,
-            "narrow range",
-            "../../frame.wgsl",
-            "../tile_pixel.wgsl",
-            "lengths.wgsl",
-            "narrow_range.wgsl"
-        );
+        let module =
+            module!("narrow range", "../../frame.wgsl", "../tile_pixel.wgsl", "lengths.wgsl", "narrow_range.wgsl");
         let kernel = |entry| Kernel::new(device, frame, &module, entry, &PIXEL_SLOTS);
         Self { x: kernel("narrow_range_x"), y: kernel("narrow_range_y"), cleanup: kernel("narrow_range_cleanup") }
     }
