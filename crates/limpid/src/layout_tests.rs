@@ -265,6 +265,7 @@ fn body() {
         include_str!("frame.wgsl"),
         include_str!("light_maps.wgsl"),
         include_str!("environment.wgsl"),
+        include_str!("elaborate.wgsl"),
         include_str!("bodies/body.wgsl")
     );
     assert_same(rust, wgsl_layout(source, "Body"));

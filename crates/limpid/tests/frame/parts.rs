@@ -189,3 +189,30 @@ fn parts_that_do_not_fit_are_refused() {
         renderer.finish_parts(device, queue, &mut encoder, &frame).unwrap();
     });
 }
+
+/// A frame whose pipelines were built together before it has the bits of one that built them as it went.
+#[test]
+fn pipelines_built_ahead_change_no_bit() {
+    with_gpu(|offscreen| {
+        let (gpu, mut stage) = (offscreen.gpu(), Stage::new());
+        let Gpu { device, queue, .. } = gpu;
+        let expected = stage.whole(gpu, &mut Renderer::new(device, &FORMAT));
+        let all = Particles::upload(device, queue, &stage.cloud.slices()).unwrap();
+        let mut renderer = Renderer::new(device, &FORMAT);
+        let frame = stage.frame(&all);
+        let asked = renderer.pipelines_of(device, |renderer, encoder| renderer.prepare(device, queue, encoder, &frame));
+        asked.unwrap().build();
+        assert!(renderer.buffers().is_none(), "nothing is prepared");
+        assert_same("built ahead", &stage.whole(gpu, &mut renderer), &expected);
+
+        // A frame that cannot be drawn is refused here too, and leaves the renderer as it was.
+        let settings =
+            std::mem::replace(&mut stage.settings, Settings { splat_scale: f32::NAN, ..Settings::spheres() });
+        let frame = stage.frame(&all);
+        let refused =
+            renderer.pipelines_of(device, |renderer, encoder| renderer.prepare(device, queue, encoder, &frame));
+        assert!(refused.is_err());
+        stage.settings = settings;
+        assert_same("after a refusal", &stage.whole(gpu, &mut renderer), &expected);
+    });
+}
