@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use tungstenite::{Message, WebSocket};
 
 /// Longer than anything takes on a busy machine with SwiftShader.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The server of a folder.
 pub struct Server {

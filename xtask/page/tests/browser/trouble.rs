@@ -17,7 +17,6 @@ pub fn a_window_can_be_tiny(page: &mut Chromium) {
 
 /// 10,077,696 particles, 216 to each side of a cube: drawn, or refused in a line that says why, and the page goes on.
 #[test]
-#[ignore = "takes minutes on a busy CPU: run it by its name with --ignored"]
 fn ten_million_particles_are_drawn_or_refused() {
     let server = Server::of(&root().join("out/web"));
     let page = &mut Chromium::open(&server.address("?example=none"), true);
