@@ -56,7 +56,7 @@ impl Pipelines {
         let kernels = self.kernels.iter().filter(|kernel| !kernel.is_built()).map(Pending::Kernel);
         let rasters = self.rasters.iter().filter(|raster| !raster.is_built()).map(Pending::Raster);
         let mut pending: Vec<Pending<'_>> = kernels.chain(rasters).collect();
-        // The longest first: they take the longest.
+        // Those with the most source first: they take longest, and would keep one thread busy at the end.
         pending.sort_by_key(|pending| std::cmp::Reverse(pending.source_bytes()));
         build_all(&pending);
     }

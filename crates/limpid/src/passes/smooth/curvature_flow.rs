@@ -55,7 +55,7 @@ pub(crate) fn relations_bytes(size: [u32; 2]) -> u64 {
 impl CurvatureFlow {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
         let list = module!("segments", "../../frame.wgsl", "segments.wgsl", "list_segments.wgsl");
-        let lines = module!(
+        let implicit = module!(
             "curvature flow",
             "../../frame.wgsl",
             "../nearness_at.wgsl",
@@ -63,16 +63,7 @@ impl CurvatureFlow {
             "flow.wgsl",
             "segments.wgsl",
             "curvature_flow.wgsl",
-            "curvature_flow_lines.wgsl"
-        );
-        let segments = module!(
-            "curvature flow by segments",
-            "../../frame.wgsl",
-            "../nearness_at.wgsl",
-            "../sheet.wgsl",
-            "flow.wgsl",
-            "segments.wgsl",
-            "curvature_flow.wgsl",
+            "curvature_flow_lines.wgsl",
             "curvature_flow_segments.wgsl"
         );
         let explicit = module!(
@@ -85,8 +76,8 @@ impl CurvatureFlow {
             "curvature_flow_explicit.wgsl"
         );
         let list = |entry| Kernel::new(device, frame, &list, entry, &LIST_SLOTS);
-        let solve = |entry| Kernel::new(device, frame, &lines, entry, &SOLVE_SLOTS[..5]);
-        let solve_segments = |entry| Kernel::new(device, frame, &segments, entry, &SOLVE_SLOTS);
+        let solve = |entry| Kernel::new(device, frame, &implicit, entry, &SOLVE_SLOTS[..5]);
+        let solve_segments = |entry| Kernel::new(device, frame, &implicit, entry, &SOLVE_SLOTS);
         Self {
             rows: Axis {
                 solve: solve("solve_rows"),
