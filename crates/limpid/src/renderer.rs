@@ -4,7 +4,7 @@ mod parts;
 
 use crate::caustics::{CAUSTIC_TEXELS, Caustics, Light, SurfacePasses};
 use crate::environment::ShadowTint;
-use crate::gpu::{Pipelines, Profiler, Recorder, Slot, bind, slot_entries, storage_buffer, uniform_buffer};
+use crate::gpu::{Pipelines, Profiler, Recorder, Slot, Watch, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::partial::Conditions;
 use crate::passes::{
     Composite, Curvature, Detail, DropletImages, DropletsPass, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform,
@@ -111,9 +111,8 @@ pub struct Renderer {
     /// A frame whose particles come in parts.
     parts: Option<Parts>,
     prepared: Option<Prepared>,
-    profiler: Option<Profiler>,
-    /// While [`Self::pipelines_of`] runs.
-    asked: Option<Pipelines>,
+    /// Asks for pipelines while [`Self::pipelines_of`] runs.
+    watch: Watch,
 }
 
 /// A frame between its particles and its picture.
@@ -215,8 +214,7 @@ impl Renderer {
             targets: None,
             parts: None,
             prepared: None,
-            profiler: None,
-            asked: None,
+            watch: Watch::default(),
             frame_layout: layout,
         }
     }
@@ -253,8 +251,7 @@ impl Renderer {
             targets: None,
             parts: None,
             prepared: None,
-            profiler: None,
-            asked: None,
+            watch: Watch::default(),
             frame_layout: self.frame_layout.clone(),
         }
     }
@@ -277,13 +274,7 @@ impl Renderer {
         buffers.check()?;
         let gather = self.gather.get_or_insert_with(|| Gather::new(device, &self.frame_layout));
         let frame_group = self.shadow.frame_group(); // unused, but every kernel has one
-        let recorder = &mut Recorder {
-            device,
-            encoder,
-            frame_group,
-            profiler: self.profiler.as_mut(),
-            asked: self.asked.as_mut(),
-        };
+        let recorder = &mut self.watch.recorder(device, encoder, frame_group);
         gather.encode(recorder, queue, buffers, particles);
         Ok(())
     }
@@ -308,13 +299,13 @@ impl Renderer {
     ) -> Result<Pipelines, Error> {
         let mut asked = Pipelines::default();
         asked.push_raster(self.composite.raster());
-        self.asked = Some(asked);
+        self.watch.asked = Some(asked);
         // Never submitted.
         let recorded = record(self, &mut device.create_command_encoder(&Default::default()));
         self.abandon_parts();
         let has_droplets = self.prepared.take().is_some_and(|prepared| prepared.droplets.is_some());
         (self.shadow_tint, self.shadow_is_new) = (None, false);
-        let mut asked = self.asked.take().unwrap_or_default();
+        let mut asked = self.watch.asked.take().unwrap_or_default();
         if let Some(droplets) = self.droplets.as_ref().filter(|_| has_droplets) {
             asked.push_raster(droplets.raster());
         }
@@ -333,12 +324,12 @@ impl Renderer {
 
     /// Measures the passes of the frames to come; None stops. Returns the one there was.
     pub fn set_profiler(&mut self, profiler: Option<Profiler>) -> Option<Profiler> {
-        std::mem::replace(&mut self.profiler, profiler)
+        std::mem::replace(&mut self.watch.profiler, profiler)
     }
 
     /// The profiler at work, for the host's own passes.
     pub fn profiler(&mut self) -> Option<&mut Profiler> {
-        self.profiler.as_mut()
+        self.watch.profiler.as_mut()
     }
 
     /// Records the shadow that the fluid casts, and that of the scene: on the fluid, and on what takes
@@ -364,13 +355,7 @@ impl Renderer {
     ) -> Result<(), Error> {
         let optics = &settings.stirred(particles.paint_average(), particles.reference_radius);
         self.shadow.reserve(device, environment);
-        let recorder = &mut Recorder {
-            device,
-            encoder,
-            frame_group: self.shadow.frame_group(),
-            profiler: self.profiler.as_mut(),
-            asked: self.asked.as_mut(),
-        };
+        let recorder = &mut self.watch.recorder(device, encoder, self.shadow.frame_group());
         self.shadow.encode(recorder, queue, particles, environment, scene);
         let absorption = optics.extinction_per_world(particles.reference_radius);
         let scene_texels = if scene.is_some() { SCENE_SHADOW_TEXELS } else { 0 };
@@ -454,13 +439,7 @@ impl Renderer {
 
         let frame_group =
             bind(device, &self.frame_layout, &[self.view.as_entire_binding(), self.settings.as_entire_binding()]);
-        let recorder = &mut Recorder {
-            device,
-            encoder,
-            frame_group: &frame_group,
-            profiler: self.profiler.as_mut(),
-            asked: self.asked.as_mut(),
-        };
+        let recorder = &mut self.watch.recorder(device, encoder, &frame_group);
         let view = frame.view.uniform(frame.size, settings.filter_scale, particles.origin);
         recorder.write(queue, &self.view, &view);
         let uniform = settings_uniform(frame, &targets);
@@ -498,13 +477,7 @@ impl Renderer {
         begun: &Begun,
     ) {
         let Begun { targets, frame_group, .. } = begun;
-        let recorder = &mut Recorder {
-            device,
-            encoder,
-            frame_group,
-            profiler: self.profiler.as_mut(),
-            asked: self.asked.as_mut(),
-        };
+        let recorder = &mut self.watch.recorder(device, encoder, frame_group);
         let balls = if settings.anisotropy.enabled {
             let skip_hidden = settings.anisotropy.skip_hidden;
             self.ellipsoids.encode(recorder, particles, &mut self.splat, targets, skip_hidden)
@@ -533,13 +506,7 @@ impl Renderer {
             depth: scene_depth.as_ref().unwrap_or(&self.nothing.depth),
             environment_map: self.environment_map.as_ref().map_or(&self.nothing.color, |map| &map.view),
         };
-        let recorder = &mut Recorder {
-            device,
-            encoder,
-            frame_group: &frame_group,
-            profiler: self.profiler.as_mut(),
-            asked: self.asked.as_mut(),
-        };
+        let recorder = &mut self.watch.recorder(device, encoder, &frame_group);
         self.tiles.encode(recorder, &targets);
         if settings.fixed_thickness.is_none() {
             self.thickness.collapse(recorder, &targets.thickness);
@@ -614,7 +581,7 @@ impl Renderer {
 
     /// Draws the prepared fluid as [`Self::composite`] does, in a pass of its own that keeps what is in `target`.
     pub fn composite_onto(&mut self, encoder: &mut wgpu::CommandEncoder, target: &TargetViews<'_>) {
-        let timestamp_writes = self.profiler.as_mut().and_then(|profiler| profiler.render("composite"));
+        let timestamp_writes = self.watch.profiler.as_mut().and_then(|profiler| profiler.render("composite"));
         let mut pass = target.begin_pass(encoder, timestamp_writes);
         self.composite(&mut pass);
     }

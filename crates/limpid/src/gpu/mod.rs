@@ -14,4 +14,4 @@ pub(crate) use module::Module;
 pub use pipelines::Pipelines;
 pub use profiler::{PassTime, Profiler};
 pub(crate) use raster::{Raster, RasterSource};
-pub(crate) use recorder::{Grid, Recorder};
+pub(crate) use recorder::{Grid, Recorder, Watch};

@@ -25,6 +25,25 @@ pub(crate) struct Recorder<'a> {
     pub asked: Option<&'a mut Pipelines>,
 }
 
+/// What there is to know of what is recorded, if anything: a part of every recorder of a renderer.
+#[derive(Default)]
+pub(crate) struct Watch {
+    pub profiler: Option<Profiler>,
+    /// As in [`Recorder`].
+    pub asked: Option<Pipelines>,
+}
+
+impl Watch {
+    pub fn recorder<'a>(
+        &'a mut self,
+        device: &'a wgpu::Device,
+        encoder: &'a mut wgpu::CommandEncoder,
+        frame_group: &'a wgpu::BindGroup,
+    ) -> Recorder<'a> {
+        Recorder { device, encoder, frame_group, profiler: self.profiler.as_mut(), asked: self.asked.as_mut() }
+    }
+}
+
 impl Recorder<'_> {
     /// The same recording for kernels that see another frame: another camera, other settings.
     pub fn in_frame<'b>(&'b mut self, frame_group: &'b wgpu::BindGroup) -> Recorder<'b> {
