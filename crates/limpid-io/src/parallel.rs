@@ -1,7 +1,7 @@
 //! Work on several cores, where there are several: a browser's page has one.
 
 use std::num::NonZero;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
 
 /// More gain little: the file itself is then what takes the time.
@@ -14,23 +14,29 @@ pub(crate) fn threads() -> usize {
     *THREADS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS))
 }
 
-/// The results of all pieces of work, in their order; each piece has a thread of its own, the first one the caller's.
+/// The results of all pieces of work, in their order: on as many threads as there are pieces, the caller's among them, or on those
+/// that the system grants.
 pub(crate) fn map<T: Send, R: Send>(pieces: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
-    if pieces.len() < 2 {
-        return pieces.into_iter().map(work).collect();
-    }
-    let mut pieces = pieces.into_iter();
-    let first = pieces.next();
-    let work = &work;
+    let count = pieces.len();
+    let queue = Mutex::new(pieces.into_iter().enumerate());
+    let results = Mutex::new(Vec::with_capacity(count));
+    let take = || loop {
+        let Some((index, piece)) = lock(&queue).next() else { return };
+        let result = work(piece);
+        lock(&results).push((index, result));
+    };
     thread::scope(|scope| {
-        let others: Vec<_> = pieces.map(|piece| scope.spawn(move || work(piece))).collect();
-        let mut results: Vec<R> = first.map(work).into_iter().collect();
-        for other in others {
-            match other.join() {
-                Ok(result) => results.push(result),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
+        for _ in 1..count {
+            // One that is refused leaves its piece to the others.
+            drop(thread::Builder::new().spawn_scoped(scope, take));
         }
-        results
-    })
+        take();
+    });
+    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.sort_unstable_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
