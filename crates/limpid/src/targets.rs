@@ -1,7 +1,7 @@
 //! The images of one frame, made anew when its size changes.
 
 use crate::gpu::storage_buffer;
-use crate::passes::{pyramid_texels, relations_bytes, segments_bytes};
+use crate::passes::{Segments, pyramid_texels, records_bytes, relations_bytes};
 use crate::{Error, Scale, Settings};
 
 /// `frame.wgsl`'s `BLOCK`.
@@ -38,7 +38,7 @@ pub(crate) struct Targets {
     /// What curvature flow solves: rows, and columns.
     pub segments: [Segments; 2],
     pub thickness: ThicknessImages,
-    /// vec4: view-space normal, thickness in world units. Before these, what curvature flow's relations are.
+    /// vec4: view-space normal, thickness in world units. Before these, curvature flow's relations or records.
     pub surface: wgpu::Buffer,
     /// vec4: linear premultiplied colour.
     pub shaded: wgpu::Buffer,
@@ -48,22 +48,6 @@ pub(crate) struct Targets {
 
 /// Where in [`Targets::tiles`] the indirect dispatch of one group for four tiles is, bytes.
 pub(crate) const QUAD_GROUPS: u64 = 16;
-
-/// Segments of all lines along one axis.
-#[derive(Clone)]
-pub(crate) struct Segments {
-    /// Indirect dispatch, count and places of those that hold fluid.
-    pub list: wgpu::Buffer,
-    /// How the ends of each depend on its neighbours.
-    pub pieces: wgpu::Buffer,
-}
-
-impl Segments {
-    fn new(device: &wgpu::Device, lines: u32, length: u32) -> Self {
-        let [list, pieces] = segments_bytes(lines, length);
-        Self { list: storage_buffer(device, "segments", list), pieces: storage_buffer(device, "pieces", pieces) }
-    }
-}
 
 /// Thickness of one view.
 #[derive(Clone)]
@@ -147,6 +131,8 @@ impl Targets {
         let size = filter_scale.of(picture_size);
         let pixels = u64::from(size[0]) * u64::from(size[1]);
         let image = |label, bytes| storage_buffer(device, label, bytes);
+        // Without them the flow goes by segments.
+        let records = Some(records_bytes(size)).filter(|bytes| *bytes <= limit).unwrap_or(0);
         Ok(Self {
             picture_size,
             filter_scale,
@@ -161,7 +147,7 @@ impl Targets {
             segments: [Segments::new(device, size[1], size[0]), Segments::new(device, size[0], size[1])],
             in_scene,
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size), in_scene),
-            surface: image("surface", (16 * pixels).max(relations_bytes(size))),
+            surface: image("surface", (16 * pixels).max(relations_bytes(size)).max(records)),
             shaded: image("shaded", 16 * pixels),
             picture: (filter_scale != Scale::Full).then(|| PictureImages {
                 raw: image("picture raw nearness", 4 * picture_pixels),

@@ -10,7 +10,8 @@ pub(crate) struct Curvature {
 
 impl Curvature {
     pub fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
-        let module = module!("curvature", "../frame.wgsl", "nearness_at.wgsl", "sheet.wgsl", "curvature.wgsl");
+        let module =
+            module!("curvature", "../frame.wgsl", "one.wgsl", "nearness_at.wgsl", "sheet.wgsl", "curvature.wgsl");
         Self { kernel: Kernel::new(device, frame, &module, "mean_curvature", &[Slot::Read, Slot::Write]) }
     }
 

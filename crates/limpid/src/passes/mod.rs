@@ -40,7 +40,7 @@ pub(crate) use resolve_depth::ResolveDepth;
 pub(crate) use shade::{OpticsUniform, SceneViews, Shade, With};
 #[cfg(test)]
 pub(crate) use smooth::LengthsUniform;
-pub(crate) use smooth::{Smooth, relations_bytes, segments_bytes};
+pub(crate) use smooth::{Segments, Smooth, records_bytes, relations_bytes};
 pub(crate) use splat::Splat;
 pub(crate) use thickness::{Thickness, level_count, pyramid_texels};
 pub(crate) use tiles::Tiles;

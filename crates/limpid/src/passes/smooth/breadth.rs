@@ -13,6 +13,7 @@ impl Breadth {
             "breadth",
             "../../frame.wgsl",
             "../tile_pixel.wgsl",
+            "../one.wgsl",
             "../nearness_at.wgsl",
             "../sheet.wgsl",
             "lengths.wgsl",

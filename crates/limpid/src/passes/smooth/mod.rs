@@ -14,8 +14,8 @@ use crate::targets::{QUAD_GROUPS, Targets};
 use crate::{Lanes, Settings};
 use bilateral::Bilateral;
 use breadth::Breadth;
-use curvature_flow::{Axis, CurvatureFlow};
-pub(crate) use curvature_flow::{relations_bytes, segments_bytes};
+use curvature_flow::CurvatureFlow;
+pub(crate) use curvature_flow::{Segments, records_bytes, relations_bytes};
 use gaussian::Gaussian;
 #[cfg(test)]
 pub(crate) use liquid_lengths::LengthsUniform;
@@ -43,8 +43,6 @@ enum Work<'a> {
     Pixels(&'a Kernel),
     /// A lane for four pixels, a group for four tiles.
     Quads(&'a Kernel),
-    /// Whole rows or columns.
-    Lines(&'a Axis),
 }
 
 /// Bindings of [`Work::Pixels`] and [`Work::Quads`]: tiles, input, output, smoothing lengths.
@@ -68,7 +66,7 @@ impl Smooth {
             Filter::None => Vec::new(),
             Filter::Gaussian => self.gaussian.steps(smoothing.iterations),
             Filter::Bilateral => self.bilateral.steps(smoothing.iterations, smoothing.exact_2d),
-            Filter::CurvatureFlow => self.curvature_flow.steps(smoothing.iterations, smoothing.curvature_flow),
+            Filter::CurvatureFlow => self.curvature_flow.explicit_steps(smoothing.iterations),
             Filter::NarrowRange => self.narrow_range.steps(smoothing.iterations),
         }
     }
@@ -95,26 +93,19 @@ impl Smooth {
         if matches!(smoothing.filter, Filter::Bilateral | Filter::CurvatureFlow) {
             self.breadth.encode(recorder, targets);
         }
-        let by_lines = smoothing.filter == Filter::CurvatureFlow && smoothing.curvature_flow == Form::Implicit;
-        if by_lines && self.lanes == Lanes::Many {
-            self.curvature_flow.list_segments(recorder, targets);
+        if smoothing.filter == Filter::CurvatureFlow && smoothing.curvature_flow == Form::Implicit {
+            return self.curvature_flow.encode_implicit(recorder, smoothing.iterations, self.lanes, targets);
         }
         let mut input = &targets.raw;
         for (i, (name, work)) in self.steps(smoothing).into_iter().enumerate() {
             let output = &targets.smooth[i % 2];
-            let name = format!("smooth/{name}");
-            match work {
-                Work::Pixels(kernel) | Work::Quads(kernel) => {
-                    let grid = match work {
-                        Work::Quads(_) => Grid::IndirectAt(&targets.tiles, QUAD_GROUPS),
-                        _ => Grid::Indirect(&targets.tiles),
-                    };
-                    let buffers = [&targets.tiles, input, output, &targets.smoothing_lengths];
-                    let resources = buffers.map(wgpu::Buffer::as_entire_binding);
-                    recorder.run(&name, kernel, &resources, &grid);
-                }
-                Work::Lines(axis) => axis.run(recorder, &name, self.lanes, (input, output), targets),
-            }
+            let (kernel, grid) = match work {
+                Work::Pixels(kernel) => (kernel, Grid::Indirect(&targets.tiles)),
+                Work::Quads(kernel) => (kernel, Grid::IndirectAt(&targets.tiles, QUAD_GROUPS)),
+            };
+            let buffers = [&targets.tiles, input, output, &targets.smoothing_lengths];
+            let resources = buffers.map(wgpu::Buffer::as_entire_binding);
+            recorder.run(&format!("smooth/{name}"), kernel, &resources, &grid);
             input = output;
         }
         input

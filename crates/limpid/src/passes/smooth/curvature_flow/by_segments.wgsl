@@ -2,6 +2,11 @@
 // are listed once a frame (`list_segments.wgsl`), 8 lines side by side at a time. Two kernels, since one has to
 // know the pieces of the others before it can go back.
 
+@group(1) @binding(0) var<storage, read> occupied: array<u32>; // for each tile, in rows
+@group(1) @binding(1) var<storage, read> input: array<f32>;
+@group(1) @binding(2) var<storage, read_write> output: array<f32>;
+@group(1) @binding(3) var<storage, read_write> relations: array<vec2u>; // of the pixels of all lines, see `relation_slot` and `keep`
+@group(1) @binding(4) var<storage, read> lengths: array<f32>; // smoothing lengths, breadth.wgsl's
 @group(1) @binding(5) var<storage, read> segments: Segments;
 @group(1) @binding(6) var<storage, read_write> pieces: array<Piece>; // of all segments, see `piece_slot`
 
@@ -13,6 +18,48 @@ struct Segments {
 
 // Below this a change farther along the line no longer matters.
 const FORGOTTEN: f32 = 1e-6;
+
+// Where a share's line is beside itself.
+const LINE_PLACES: f32 = 0.0;
+
+// 0 beyond the picture.
+fn nearness_along(share: Share, i: i32) -> f32 {
+    return nearness_at(share.origin + i * share.axis);
+}
+
+fn sides_at(share: Share, i: i32, center: f32) -> Sides {
+    let at = share.origin + i * share.axis;
+    return Sides(nearness_at(at - share.axis.yx), nearness_at(at + share.axis.yx));
+}
+
+fn index_along(share: Share, i: i32) -> u32 {
+    let at = vec2u(share.origin + i * share.axis);
+    return at.y * view.size.x + at.x;
+}
+
+fn lengths_along(share: Share, i: i32) -> f32 {
+    return lengths[index_along(share, i)];
+}
+
+fn give(share: Share, i: i32, nearness: f32) {
+    output[index_along(share, i)] = nearness;
+}
+
+// The relations of LINES lines lie side by side: lanes that work on them share cache lines, whatever the picture's width.
+fn relation_slot(share: Share, i: i32) -> u32 {
+    let length = u32(dot(vec2i(view.size), share.axis));
+    return share.line / LINES * LINES * length + share.line % LINES + u32(i) * LINES;
+}
+
+fn keep(share: Share, i: i32, nearness: f32, relation: Relation) {
+    let shares = pack_share(relation.previous, 16u) | (pack_share(relation.next, 16u) << 16u);
+    relations[relation_slot(share, i)] = vec2u(bitcast<u32>(relation.constant), shares);
+}
+
+fn kept_at(share: Share, i: i32, nearness: f32) -> Relation {
+    let kept = relations[relation_slot(share, i)];
+    return Relation(bitcast<f32>(kept.x), unpack_share(kept.y & 0xffffu, 16u), unpack_share(kept.y >> 16u, 16u));
+}
 
 // A lane's line of a segment.
 struct Segment {
@@ -74,15 +121,21 @@ fn solve_ends(segment: Segment) -> vec2f {
     return vec2f(previous, next);
 }
 
+fn vector(relation: Relation) -> vec3f {
+    return vec3f(relation.constant, relation.previous, relation.next);
+}
+
 fn eliminate_segment(segment: Segment) {
     if segment.inside {
-        pieces[piece_slot(segment.place, segment.share.axis)] = eliminate(segment.share);
+        let ends = eliminate(segment.share);
+        pieces[piece_slot(segment.place, segment.share.axis)] = Piece(vector(ends.first), vector(ends.last));
     }
 }
 
 fn substitute_segment(segment: Segment) {
     if segment.inside {
-        substitute(segment.share, solve_ends(segment));
+        let ends = solve_ends(segment);
+        substitute(segment.share, ends.x, ends.y);
     }
 }
 

@@ -11,21 +11,24 @@ fn has_neighbor(center: f32, neighbor: f32) -> bool {
     return is_sheet(center, neighbor, sheet_step());
 }
 
-fn normal_at(at: vec2i, center: f32) -> vec3f {
+const X: vec2f = vec2f(1.0, 0.0);
+
+fn normal_at(at: vec2i, center: f32) -> Normal {
     let low = vec2f(nearness_at(at - vec2i(1, 0)), nearness_at(at - vec2i(0, 1)));
     let high = vec2f(nearness_at(at + vec2i(1, 0)), nearness_at(at + vec2i(0, 1)));
     let x = mean_difference(low.x, center, high.x, has_neighbor(center, low.x), has_neighbor(center, high.x));
     let y = mean_difference(low.y, center, high.y, has_neighbor(center, low.y), has_neighbor(center, high.y));
-    return normal_of(at, center, vec2f(x, y));
+    let px = vec2f(at);
+    return normal_of(X, px.x, px.y, center, x, y);
 }
 
 // The flux from a pixel's neighbour into it.
-fn inflow(at: vec2i, center: f32, normal: vec3f, offset: vec2i) -> f32 {
+fn inflow(at: vec2i, center: f32, normal: Normal, offset: vec2i) -> f32 {
     let neighbor = nearness_at(at + offset);
     if !has_neighbor(center, neighbor) {
         return 0.0;
     }
-    return conductance(normal + normal_at(at + offset, neighbor)) * (neighbor - center);
+    return conductance(sum_of(normal, normal_at(at + offset, neighbor))) * (neighbor - center);
 }
 
 @compute @workgroup_size(8, 8)
@@ -43,7 +46,10 @@ fn curvature_flow_explicit(
         output[pixel.index] = 0.0;
         return;
     }
-    let change = mobility(pixel.at, center);
+    let length_world = lengths[pixel.index];
+    let free = vec2f(mobility(X, length_world, center), mobility(X.yx, length_world, center));
+    let is_edge = (pixel.at == vec2i(0)) | (pixel.at == vec2i(view.size) - 1);
+    let change = select(free, vec2f(0.0), is_edge);
     // Stable while twice the sum of change / L is at most 1; 1 / L is largest where the surface faces the eye. Head on
     // that is dt <= z^2 / (2 f^2). A pixel that would need more takes this step: many iterations, each at this limit, are
     // the paper's form, whose smoothing is in pixels.
