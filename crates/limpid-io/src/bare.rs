@@ -4,6 +4,10 @@
 use crate::error::{Fault, broken};
 use crate::input::Input;
 use crate::raw::{Positions, Raw};
+use crate::values::{Encoding, Scalar};
+
+/// Bytes that are unpacked at a time.
+const AT_ONCE: usize = 1 << 16;
 
 /// The type of bare numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,30 +19,26 @@ pub enum Bare {
 }
 
 pub(crate) fn read(input: &mut Input, numbers: Bare) -> Result<Raw, Fault> {
-    let positions = match numbers {
-        Bare::F32 => Positions::F32(triples(input, |bytes: &[u8; 12]| {
-            let (numbers, _) = bytes.as_chunks();
-            [0, 1, 2].map(|axis| f32::from_le_bytes(numbers[axis]))
-        })?),
-        Bare::F64 => Positions::F64(triples(input, |bytes: &[u8; 24]| {
-            let (numbers, _) = bytes.as_chunks();
-            [0, 1, 2].map(|axis| f64::from_le_bytes(numbers[axis]))
-        })?),
+    let scalar = match numbers {
+        Bare::F32 => Scalar::F32,
+        Bare::F64 => Scalar::F64,
     };
-    Ok(Raw::new(positions))
-}
-
-fn triples<const N: usize, T>(input: &mut Input, decode: impl Fn(&[u8; N]) -> T) -> Result<Vec<T>, Fault> {
-    if !input.is_gzipped() {
-        let size = input.left();
-        if !size.is_multiple_of(N as u64) {
-            return broken!("its {size} bytes are no multiple of the {N} that a particle takes");
+    let particle = 3 * scalar.size();
+    if input.is_exact() && !input.left().is_multiple_of(particle as u64) {
+        return broken!("its {} bytes are no multiple of the {particle} that a particle takes", input.left());
+    }
+    if input.is_exact() {
+        let values = input.values(scalar, Encoding::Little, input.left() / scalar.size() as u64)?;
+        return Ok(Raw::new(Positions::from_triples(values)));
+    }
+    // How many there are is known when they have been unpacked.
+    let mut values = scalar.array(0);
+    loop {
+        let particles = input.peek(AT_ONCE)?.len() / particle;
+        if particles == 0 {
+            break;
         }
-        return input.records(size / N as u64, decode);
+        values.append(input.values(scalar, Encoding::Little, 3 * particles as u64)?)?;
     }
-    let mut triples = Vec::new();
-    while !input.at_end()? {
-        triples.push(decode(&input.bytes()?));
-    }
-    Ok(triples)
+    if input.at_end()? { Ok(Raw::new(Positions::from_triples(values))) } else { broken!("it ends within a particle") }
 }

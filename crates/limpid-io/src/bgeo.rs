@@ -5,11 +5,11 @@
 //! x y z w and its attributes. What follows the points is of no interest, except that nothing but the end mark may
 //! follow them in a file without primitives.
 
+use crate::Attribute;
 use crate::error::{Fault, broken, quote};
 use crate::input::Input;
 use crate::raw::{Positions, Raw};
-use crate::values::{Encoding, Scalar, Slot, triples};
-use crate::{Attribute, Values};
+use crate::values::{Encoding, Scalar, Slot};
 
 pub(crate) const MAGIC: &[u8] = b"Bgeo";
 const VERSION: i32 = 5;
@@ -40,15 +40,10 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
         }
     }
 
-    let capacity = input.claim(header.points, size)?;
-    let mut arrays: Vec<Values> = slots.iter().map(|(_, slot)| slot.scalar.array(capacity * slot.components)).collect();
-    let mut positions = Vec::with_capacity(capacity);
-    input.blocks(header.points, size, |block| {
-        positions.extend(triples(block, size, 0, Encoding::Big));
-        for (array, (_, slot)) in arrays.iter_mut().zip(&slots) {
-            array.extend_from_records(block, size, *slot, Encoding::Big);
-        }
-    })?;
+    let position = Slot { scalar: Scalar::F32, components: 3, offset: 0 };
+    let wanted: Vec<Slot> = [position].into_iter().chain(slots.iter().map(|(_, slot)| *slot)).collect();
+    let mut arrays = input.records(header.points, size, &wanted, Encoding::Big)?;
+    let positions = Positions::from_triples(arrays.remove(0));
     if header.points_only && (input.bytes()? != END || !input.at_end()?) {
         return broken!("the end mark after its {} points is missing", header.points);
     }
@@ -56,7 +51,7 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let attributes = slots.into_iter().zip(arrays);
     let attributes =
         attributes.map(|((name, slot), values)| Attribute { name, components: slot.components, values }).collect();
-    Ok(Raw { attributes, ..Raw::new(Positions::F32(positions)) })
+    Ok(Raw { attributes, ..Raw::new(positions) })
 }
 
 fn read_header(input: &mut Input) -> Result<Header, Fault> {

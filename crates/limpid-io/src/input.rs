@@ -3,35 +3,34 @@
 //! Whatever a header claims is checked against the file's size before memory is reserved for it.
 
 mod buffer;
+mod plain;
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
+use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use flate2::read::GzDecoder;
+use flate2::read::MultiGzDecoder;
 
 use crate::error::{Fault, broken, quote};
+use crate::parallel;
 use buffer::Buffer;
+use plain::Plain;
+
+pub(crate) use plain::Place;
 
 const BUFFER: usize = 1 << 17;
-/// Twice the buffer: what is left of a block once the buffer is empty goes past it, from the file into the block.
-const BLOCK: usize = 2 * BUFFER;
 const HEAD: usize = 64;
 const LONGEST_LINE: usize = 1 << 16;
 pub(crate) const LONGEST_WORD: usize = 1 << 10;
 
+const GZIP: &[u8] = &[0x1f, 0x8b];
 /// Deflate cannot pack tighter than this.
 const GZIP_RATIO: u64 = 1032;
 
 /// Records reserved for at once where only reading on tells how many there are.
 const FIRST_RECORDS: usize = 1 << 14;
-
-/// What can be read at any place.
-pub(crate) trait Seekable: Read + Seek {}
-
-impl<T: Read + Seek> Seekable for T {}
 
 pub(crate) struct Input<'a> {
     reader: Buffer<Box<dyn Read + 'a>>,
@@ -42,48 +41,66 @@ pub(crate) struct Input<'a> {
     /// Bytes still to come, or an upper bound.
     left: u64,
     word: Vec<u8>,
-    /// The file once more, unless it must be unpacked.
-    whole: Option<Box<dyn Seekable>>,
+    /// The file's beginning, unless it must be unpacked.
+    first: Option<Place>,
 }
 
 impl Input<'static> {
     pub fn open(path: &Path) -> io::Result<Self> {
         let file = File::open(path)?;
-        if file.metadata()?.is_dir() {
+        let metadata = file.metadata()?;
+        if metadata.is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
         }
-        let size = file.metadata()?.len();
-        Self::of(file.try_clone()?, file, size)
+        if metadata.is_file() { Self::of_plain(Plain::File(file), metadata.len()) } else { Self::of_pipe(file) }
     }
 
     /// A file that is in memory.
     pub fn of_bytes(bytes: Arc<[u8]>) -> io::Result<Self> {
         let size = bytes.len() as u64;
-        Self::of(Cursor::new(Arc::clone(&bytes)), Cursor::new(bytes), size)
+        Self::of_plain(Plain::Bytes(bytes), size)
     }
 
-    fn of(whole: impl Seekable + 'static, file: impl Read + 'static, size: u64) -> io::Result<Self> {
-        let mut file = BufReader::with_capacity(BUFFER, file);
-        let gzipped = file.fill_buf()?.starts_with(&[0x1f, 0x8b]);
-        let mut stream: Box<dyn Read> = if gzipped { Box::new(GzDecoder::new(file)) } else { Box::new(file) };
-        let mut head = Vec::new();
-        // A damaged gzip stream may fail right here: the reader meets the same error again and reports it.
-        let opening = (&mut stream).take(HEAD as u64).read_to_end(&mut head);
-        if !gzipped {
-            opening?;
+    fn of_plain(plain: Plain, size: u64) -> io::Result<Self> {
+        let first = Place::first(plain, size);
+        let head = head_of(&mut first.clone())?;
+        if head.starts_with(GZIP) {
+            return Ok(Self::of_gzip(first, size.saturating_mul(GZIP_RATIO)));
         }
-        let reader = Buffer::new(BUFFER, Box::new(Cursor::new(head.clone()).chain(stream)) as Box<_>);
-        let left = if gzipped { size.saturating_mul(GZIP_RATIO) } else { size };
-        let whole = (!gzipped).then(|| Box::new(whole) as Box<_>);
-        Ok(Self { reader, head, gzipped, exact: !gzipped, left, word: Vec::new(), whole })
+        Ok(Self { head, exact: true, first: Some(first.clone()), ..Self::of_stream(first, size) })
     }
+
+    /// What comes from another program, which cannot be read at any place, nor tells its length.
+    fn of_pipe(mut pipe: File) -> io::Result<Self> {
+        let head = head_of(&mut pipe)?;
+        let whole = Cursor::new(head.clone()).chain(pipe);
+        if head.starts_with(GZIP) {
+            return Ok(Self::of_gzip(whole, u64::MAX));
+        }
+        Ok(Self { head, ..Self::of_stream(whole, u64::MAX) })
+    }
+
+    fn of_gzip(packed: impl Read + 'static, most: u64) -> Self {
+        let mut stream = MultiGzDecoder::new(BufReader::with_capacity(BUFFER, packed));
+        let mut head = Vec::new();
+        // A damaged stream may fail right here: the reader meets the same error again and reports it.
+        drop((&mut stream).take(HEAD as u64).read_to_end(&mut head));
+        let whole = Cursor::new(head.clone()).chain(stream);
+        Self { head, gzipped: true, ..Self::of_stream(whole, most) }
+    }
+}
+
+fn head_of(stream: &mut impl Read) -> io::Result<Vec<u8>> {
+    let mut head = Vec::new();
+    stream.take(HEAD as u64).read_to_end(&mut head)?;
+    Ok(head)
 }
 
 impl<'a> Input<'a> {
     /// Bytes from elsewhere, at most so many, as a stream: what is claimed is checked against that.
     pub fn of_stream(stream: impl Read + 'a, most: u64) -> Self {
         let reader = Buffer::new(BUFFER, Box::new(stream) as Box<_>);
-        Self { reader, head: Vec::new(), gzipped: false, exact: false, left: most, word: Vec::new(), whole: None }
+        Self { reader, head: Vec::new(), gzipped: false, exact: false, left: most, word: Vec::new(), first: None }
     }
 
     /// The same where so many bytes are known to be there: memory for them is reserved at once.
@@ -91,15 +108,15 @@ impl<'a> Input<'a> {
         Self { exact: true, ..Self::of_stream(stream, length) }
     }
 
-    /// The whole file from its beginning, to be read at any place; in memory if it has to be unpacked.
-    pub fn whole(&mut self) -> Result<Box<dyn Seekable>, Fault> {
-        if let Some(mut whole) = self.whole.take() {
-            whole.rewind()?;
-            return Ok(whole);
+    /// The beginning of the whole file, to be read at any place; in memory if it has to be unpacked.
+    pub fn whole(&mut self) -> Result<Place, Fault> {
+        if let Some(first) = &self.first {
+            return Ok(first.clone());
         }
         let mut bytes = Vec::new();
         self.reader.read_to_end(&mut bytes)?;
-        Ok(Box::new(Cursor::new(bytes)))
+        let size = bytes.len() as u64;
+        Ok(Place::first(Plain::Bytes(bytes.into()), size))
     }
 
     /// The first bytes, for telling the format.
@@ -164,6 +181,12 @@ impl<'a> Input<'a> {
     }
 
     pub fn skip(&mut self, bytes: u64) -> Result<(), Fault> {
+        if bytes > self.left {
+            return broken!("it ends too early");
+        }
+        if bytes > BUFFER as u64 && self.go_on_at(bytes) {
+            return Ok(());
+        }
         let mut wanted = bytes;
         while wanted > 0 {
             let here = self.reader.fill_buf()?.len() as u64;
@@ -177,34 +200,52 @@ impl<'a> Input<'a> {
         Ok(())
     }
 
+    /// Goes on so many bytes further, without reading them; false where only reading leads there.
+    fn go_on_at(&mut self, bytes: u64) -> bool {
+        let Some(first) = &self.first else { return false };
+        self.left -= bytes;
+        self.reader.restart(Box::new(first.before_end(self.left)));
+        true
+    }
+
+    /// Reads parts that follow each other, each of so many bytes, by `work`, which takes all bytes of its part: on several cores
+    /// where the file lies there as it is.
+    pub fn parts<T: Send>(
+        &mut self,
+        parts: Vec<(u64, T)>,
+        work: impl Fn(&mut dyn Read, T) -> Result<(), Fault> + Sync,
+    ) -> Result<(), Fault> {
+        if parts.len() < 2 || self.first.is_none() {
+            return parts.into_iter().try_for_each(|(_, part)| work(self, part));
+        }
+        let mut length = 0;
+        let placed = parts.into_iter().map(|(bytes, part)| {
+            let at = length;
+            length += bytes;
+            (at, part)
+        });
+        let placed = placed.collect();
+        if self.at_places(placed, length, work)? { Ok(()) } else { broken!("it ends too early") }
+    }
+
+    /// The same for parts that begin so many bytes from here, of `length` bytes in all; false, and nothing is read, where the file does
+    /// not lie there as it is, or is too short. After an error nothing is taken.
+    pub fn at_places<T: Send>(
+        &mut self,
+        parts: Vec<(u64, T)>,
+        length: u64,
+        work: impl Fn(&mut dyn Read, T) -> Result<(), Fault> + Sync,
+    ) -> Result<bool, Fault> {
+        let Some(first) = self.first.as_ref().filter(|_| length <= self.left) else { return Ok(false) };
+        let here = first.before_end(self.left);
+        let results = parallel::map(parts, |(at, part)| work(&mut here.further(at), part));
+        results.into_iter().collect::<Result<(), _>>()?;
+        Ok(self.go_on_at(length))
+    }
+
     /// True at the end of the file. For a gzipped one this also verifies the checksum.
     pub fn at_end(&mut self) -> Result<bool, Fault> {
         Ok(self.reader.fill_buf()?.is_empty())
-    }
-
-    /// Hands over `count` records of `size` bytes, many whole ones at a time.
-    pub fn blocks(&mut self, count: u64, size: usize, mut each: impl FnMut(&[u8])) -> Result<(), Fault> {
-        let per_block = (BLOCK / size).max(1) as u64;
-        let mut block = vec![0; per_block.min(count) as usize * size];
-        let mut left = count;
-        while left > 0 {
-            let records = left.min(per_block);
-            let bytes = &mut block[..records as usize * size];
-            self.exact(bytes)?;
-            each(bytes);
-            left -= records;
-        }
-        Ok(())
-    }
-
-    /// Decodes `count` records of `N` bytes straight into their final array.
-    pub fn records<const N: usize, T>(&mut self, count: u64, decode: impl Fn(&[u8; N]) -> T) -> Result<Vec<T>, Fault> {
-        let mut records = Vec::with_capacity(self.claim(count, N)?);
-        self.blocks(count, N, |block| {
-            grow(&mut records, block.len() / N, count as usize);
-            records.extend(block.as_chunks().0.iter().map(&decode));
-        })?;
-        Ok(records)
     }
 
     /// The next line without its end, or `None` at the end of the file.

@@ -14,8 +14,8 @@ pub(crate) fn threads() -> usize {
     *THREADS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS))
 }
 
-/// The results of all pieces of work, in their order: on as many threads as there are pieces, the caller's among them, or on those
-/// that the system grants.
+/// The results of all pieces of work, in their order: on as many threads as there are pieces and cores, the caller's among them, or on
+/// those that the system grants.
 pub(crate) fn map<T: Send, R: Send>(pieces: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     let count = pieces.len();
     let queue = Mutex::new(pieces.into_iter().enumerate());
@@ -26,8 +26,8 @@ pub(crate) fn map<T: Send, R: Send>(pieces: Vec<T>, work: impl Fn(T) -> R + Sync
         lock(&results).push((index, result));
     };
     thread::scope(|scope| {
-        for _ in 1..count {
-            // One that is refused leaves its piece to the others.
+        for _ in 1..count.min(threads()) {
+            // One that is refused leaves its pieces to the others.
             drop(thread::Builder::new().spawn_scoped(scope, take));
         }
         take();

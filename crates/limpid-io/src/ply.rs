@@ -5,7 +5,7 @@ use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
 use crate::names;
 use crate::raw::{Positions, Raw};
-use crate::values::{Encoding, Scalar, Slot, triples};
+use crate::values::{Encoding, Scalar, Slot};
 use crate::{Attribute, Values};
 
 pub(crate) const MAGIC: &[u8] = b"ply";
@@ -150,19 +150,14 @@ fn read_vertices(input: &mut Input, encoding: Encoding, vertex: Element) -> Resu
     if !["x", "y", "z"].iter().all(|axis| properties.iter().filter(is_scalar).any(|p| p.name == *axis)) {
         return broken!("its element \"vertex\" has no x, y and z");
     }
-    // The least that one vertex takes: a list may be empty.
-    let capacity = match encoding {
-        Encoding::Ascii => input.claim_words(count.saturating_mul(properties.len() as u64))?.min(count as usize),
-        _ => input.claim(count, properties.iter().map(|p| p.list.unwrap_or(p.scalar).size()).sum())?,
-    };
     let has_lists = properties.iter().any(|property| property.list.is_some());
     let (positions, mut attributes) = match encoding {
-        _ if has_lists => (None, read_values(input, encoding, count, capacity, properties)?),
+        _ if has_lists => (None, read_values(input, encoding, count, properties)?),
         Encoding::Ascii => {
             let columns: Vec<Scalar> = properties.iter().map(|property| property.scalar).collect();
             (None, named(properties, input.columns(&columns, count)?))
         }
-        _ => read_records(input, encoding, count, capacity, properties)?,
+        _ => read_records(input, encoding, count, properties)?,
     };
     let Some(positions) = positions.or_else(|| names::take_positions(&mut attributes)) else {
         return broken!("its element \"vertex\" has no x, y and z");
@@ -176,9 +171,13 @@ fn read_values(
     input: &mut Input,
     encoding: Encoding,
     count: u64,
-    capacity: usize,
     properties: Vec<Property>,
 ) -> Result<Vec<Attribute>, Fault> {
+    // The least that one vertex takes: a list may be empty.
+    let capacity = match encoding {
+        Encoding::Ascii => input.claim_words(count.saturating_mul(properties.len() as u64))?.min(count as usize),
+        _ => input.claim(count, properties.iter().map(|p| p.list.unwrap_or(p.scalar).size()).sum())?,
+    };
     let scalars = properties.iter().filter(|property| property.list.is_none());
     let mut arrays: Vec<Values> = scalars.map(|property| property.scalar.array(capacity)).collect();
     for _ in 0..count {
@@ -208,54 +207,40 @@ fn read_records(
     input: &mut Input,
     encoding: Encoding,
     count: u64,
-    capacity: usize,
     properties: Vec<Property>,
 ) -> Result<(Option<Positions>, Vec<Attribute>), Fault> {
     let mut size = 0;
-    let mut positions_at = None;
+    let mut position = None;
     let mut columns: Vec<(String, Slot)> = Vec::new();
     let mut rest = &properties[..];
     while let [first, ..] = rest {
         let three = rest.first_chunk::<3>().filter(|three| three.iter().all(|other| other.scalar == first.scalar));
         let names = three.map(|three| three.each_ref().map(|property| property.name.as_str()));
         let vector = names.and_then(names::vector_of);
-        let is_position = names == Some(["x", "y", "z"]) && first.scalar == Scalar::F32 && positions_at.is_none();
+        let is_position = names == Some(["x", "y", "z"]) && position.is_none();
         let components = if is_position || vector.is_some() { 3 } else { 1 };
         if is_position {
-            positions_at = Some(size);
-        } else {
-            let name = vector.unwrap_or_else(|| first.name.clone());
-            columns.push((name, Slot { scalar: first.scalar, components, offset: size }));
+            position = Some(columns.len());
         }
+        let name = vector.unwrap_or_else(|| first.name.clone());
+        columns.push((name, Slot { scalar: first.scalar, components, offset: size }));
         size += components * first.scalar.size();
         rest = &rest[components..];
     }
-    let mut positions = Vec::with_capacity(positions_at.map_or(0, |_| capacity));
-    let mut arrays: Vec<Values> =
-        columns.iter().map(|(_, slot)| slot.scalar.array(slot.components * capacity)).collect();
-    input.blocks(count, size, |block| {
-        if let Some(offset) = positions_at {
-            positions.extend(triples(block, size, offset, encoding));
-        }
-        for (array, (_, slot)) in arrays.iter_mut().zip(&columns) {
-            array.extend_from_records(block, size, *slot, encoding);
-        }
-    })?;
+    let slots: Vec<Slot> = columns.iter().map(|(_, slot)| *slot).collect();
+    let arrays = input.records(count, size, &slots, encoding)?;
     let attribute =
         |((name, slot), values): ((String, Slot), _)| Attribute { name, components: slot.components, values };
-    let attributes = columns.into_iter().zip(arrays).map(attribute).collect();
-    Ok((positions_at.map(|_| Positions::F32(positions)), attributes))
+    let mut attributes: Vec<Attribute> = columns.into_iter().zip(arrays).map(attribute).collect();
+    let positions = position.map(|index| Positions::from_triples(attributes.remove(index).values));
+    Ok((positions, attributes))
 }
 
 fn read_scalar(input: &mut Input, encoding: Encoding, scalar: Scalar, array: &mut Values) -> Result<(), Fault> {
     if encoding == Encoding::Ascii {
         return array.push_word(input.word()?);
     }
-    let mut bytes = [0; 8];
-    let bytes = &mut bytes[..scalar.size()];
-    input.exact(bytes)?;
-    array.extend_from_records(bytes, bytes.len(), Slot { scalar, components: 1, offset: 0 }, encoding);
-    Ok(())
+    array.append(input.values(scalar, encoding, 1)?)
 }
 
 fn skip_list(input: &mut Input, encoding: Encoding, length: Scalar, scalar: Scalar) -> Result<(), Fault> {

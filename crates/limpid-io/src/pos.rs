@@ -3,6 +3,7 @@
 use crate::error::{Fault, broken};
 use crate::input::Input;
 use crate::raw::{Positions, Raw};
+use crate::values::{Encoding, Scalar};
 
 const HEADER: u64 = 8;
 const POINT: u64 = 12;
@@ -14,22 +15,19 @@ pub(crate) fn has_size_of(head: &[u8], size: u64) -> bool {
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let size = input.left();
-    if size < HEADER && !input.is_gzipped() {
+    if size < HEADER && input.is_exact() {
         return broken!("its {size} bytes are less than the header's {HEADER}");
     }
     let count = u64::from(u32::from_le_bytes(input.bytes()?));
     let radius = f32::from_le_bytes(input.bytes()?);
-    if !input.is_gzipped() && size != HEADER + POINT * count {
+    if input.is_exact() && size != HEADER + POINT * count {
         return broken!("{count} particles take {} bytes, but it has {size}", HEADER + POINT * count);
     }
-    let positions = input.records(count, |bytes: &[u8; POINT as usize]| {
-        let (coordinates, _) = bytes.as_chunks();
-        [0, 1, 2].map(|axis| f32::from_le_bytes(coordinates[axis]))
-    })?;
+    let positions = Positions::from_triples(input.values(Scalar::F32, Encoding::Little, 3 * count)?);
     if !input.at_end()? {
         return broken!("bytes follow its {count} particles");
     }
-    let raw = Raw::new(Positions::F32(positions));
+    let raw = Raw::new(positions);
     if radius.is_finite() && radius > 0.0 {
         return Ok(Raw { file_radius: Some(f64::from(radius)), ..raw });
     }

@@ -1,14 +1,22 @@
 //! Typed arrays and how numbers of any type become one.
 
+mod slots;
+
 use std::borrow::Cow;
+use std::io::Read;
 
 use bytemuck::Pod;
 
 use crate::error::{Fault, broken};
 use crate::input::{self, Input, parse};
 
-/// Numbers read at a time, which stay in a core's cache meanwhile.
-const PIECE: usize = 1 << 16;
+pub(crate) use slots::Slot;
+
+/// Bytes read at a time: they stay in a core's cache meanwhile, and for so many no allocator asks the system.
+pub(crate) const PIECE: usize = 3 << 15;
+
+/// Bytes that a core reads in the time that it takes to ask it.
+const SHARE: usize = 1 << 20;
 
 /// The numbers of an attribute, one particle after the other, in a type that holds what the file has exactly.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +72,31 @@ impl Values {
         }
     }
 
+    /// Adds zeros, of at most so many numbers in all.
+    pub(crate) fn extend_with_zeros(&mut self, more: usize, most: usize) {
+        self.grow(more, most);
+        let count = self.len() + more;
+        match self {
+            Self::U8(array) => array.resize(count, 0),
+            Self::I32(array) => array.resize(count, 0),
+            Self::I64(array) => array.resize(count, 0),
+            Self::F32(array) => array.resize(count, 0.0),
+            Self::F64(array) => array.resize(count, 0.0),
+        }
+    }
+
+    /// The memory of the numbers, where numbers of this type lie in it as they lie in a file.
+    pub(crate) fn bytes_mut(&mut self, scalar: Scalar) -> Option<&mut [u8]> {
+        let bytes = match self {
+            Self::U8(array) => array,
+            Self::I32(array) => bytemuck::cast_slice_mut(array),
+            Self::I64(array) => bytemuck::cast_slice_mut(array),
+            Self::F32(array) => bytemuck::cast_slice_mut(array),
+            Self::F64(array) => bytemuck::cast_slice_mut(array),
+        };
+        scalar.is_kept().then_some(bytes)
+    }
+
     /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -115,14 +148,6 @@ pub(crate) enum Encoding {
     Big,
 }
 
-/// Where a value lies in each fixed-size record of a file.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Slot {
-    pub scalar: Scalar,
-    pub components: usize,
-    pub offset: usize,
-}
-
 impl Scalar {
     pub fn size(self) -> usize {
         match self {
@@ -133,6 +158,23 @@ impl Scalar {
         }
     }
 
+    /// Whether an array keeps such numbers in as many bytes.
+    fn is_kept(self) -> bool {
+        !matches!(self, Self::I8 | Self::I16 | Self::U16 | Self::U32)
+    }
+
+    /// So many zeros.
+    pub fn zeros(self, count: usize) -> Values {
+        match self.array(0) {
+            Values::U8(_) => Values::U8(vec![0; count]),
+            Values::I32(_) => Values::I32(vec![0; count]),
+            Values::I64(_) => Values::I64(vec![0; count]),
+            Values::F32(_) => Values::F32(vec![0.0; count]),
+            Values::F64(_) => Values::F64(vec![0.0; count]),
+        }
+    }
+
+    /// An array without numbers, but with room for some.
     pub fn array(self, capacity: usize) -> Values {
         match self {
             Self::U8 => Values::U8(Vec::with_capacity(capacity)),
@@ -155,64 +197,6 @@ impl Values {
         }
         Ok(())
     }
-
-    /// Appends the values at `slot` of each record of `size` bytes.
-    pub(crate) fn extend_from_records(&mut self, records: &[u8], size: usize, slot: Slot, encoding: Encoding) {
-        let big = encoding == Encoding::Big;
-        macro_rules! extend {
-            ($array:expr, $from:ty, $to:ty) => {{
-                const SIZE: usize = size_of::<$from>();
-                let number = |&bytes: &[u8; SIZE]| {
-                    (if big { <$from>::from_be_bytes(bytes) } else { <$from>::from_le_bytes(bytes) }) as $to
-                };
-                if slot.components * SIZE == size {
-                    $array.extend(records.as_chunks().0.iter().map(number));
-                } else if slot.components == 1 {
-                    let first = |record: &[u8]| record[slot.offset..].first_chunk().map_or(<$to>::default(), number);
-                    $array.extend(records.chunks_exact(size).map(first));
-                } else {
-                    let known = $array.len();
-                    $array.resize(known + records.len() / size * slot.components, <$to>::default());
-                    let records = records.chunks_exact(size).map(|record| record[slot.offset..].as_chunks().0);
-                    if slot.components == 3 {
-                        for (row, numbers) in $array[known..].as_chunks_mut::<3>().0.iter_mut().zip(records) {
-                            *row = [0, 1, 2].map(|k| number(&numbers[k]));
-                        }
-                    } else {
-                        for (row, numbers) in $array[known..].chunks_exact_mut(slot.components.max(1)).zip(records) {
-                            row.iter_mut().zip(numbers).for_each(|(to, bytes)| *to = number(bytes));
-                        }
-                    }
-                }
-            }};
-        }
-        match (self, slot.scalar) {
-            (Self::U8(array), _) => extend!(array, u8, u8),
-            (Self::I32(array), Scalar::I8) => extend!(array, i8, i32),
-            (Self::I32(array), Scalar::I16) => extend!(array, i16, i32),
-            (Self::I32(array), Scalar::U16) => extend!(array, u16, i32),
-            (Self::I32(array), _) => extend!(array, i32, i32),
-            (Self::I64(array), Scalar::U32) => extend!(array, u32, i64),
-            (Self::I64(array), Scalar::U64) => extend!(array, u64, i64),
-            (Self::I64(array), _) => extend!(array, i64, i64),
-            (Self::F32(array), _) => extend!(array, f32, f32),
-            (Self::F64(array), _) => extend!(array, f64, f64),
-        }
-    }
-}
-
-/// The f32 triple that lies `offset` bytes into each record of `size` bytes.
-pub(crate) fn triples(
-    records: &[u8],
-    size: usize,
-    offset: usize,
-    encoding: Encoding,
-) -> impl ExactSizeIterator<Item = [f32; 3]> + '_ {
-    let big = encoding == Encoding::Big;
-    records.chunks_exact(size).map(move |record| {
-        let numbers = record[offset..].as_chunks::<4>().0;
-        [0, 1, 2].map(|axis| if big { f32::from_be_bytes(numbers[axis]) } else { f32::from_le_bytes(numbers[axis]) })
-    })
 }
 
 impl Input<'_> {
@@ -230,36 +214,38 @@ impl Input<'_> {
             Scalar::F32 => Values::F32(self.array(count, swaps, |x: f32| f32::from_bits(x.to_bits().swap_bytes()))?),
             Scalar::F64 => Values::F64(self.array(count, swaps, |x: f64| f64::from_bits(x.to_bits().swap_bytes()))?),
             Scalar::I8 | Scalar::I16 | Scalar::U16 | Scalar::U32 => {
-                let size = scalar.size();
-                let mut values = scalar.array(self.claim(count, size)?);
                 let slot = Slot { scalar, components: 1, offset: 0 };
-                self.blocks(count, size, |block| {
-                    values.grow(block.len() / size, count as usize);
-                    values.extend_from_records(block, size, slot, encoding);
-                })?;
-                values
+                self.records(count, scalar.size(), &[slot], encoding)?.swap_remove(0)
             }
         })
     }
 
     /// Numbers whose type is that of the file, but for the order of their bytes: read to where they stay.
-    fn array<T: Pod>(&mut self, count: u64, swaps: bool, swap: impl Fn(T) -> T) -> Result<Vec<T>, Fault> {
+    fn array<T: Pod + Send>(&mut self, count: u64, swaps: bool, swap: impl Fn(T) -> T + Sync) -> Result<Vec<T>, Fault> {
         let known = self.claim(count, size_of::<T>())?;
-        // Memory that is zero to begin with costs nothing until it is written to.
-        let mut array = vec![T::zeroed(); if self.is_exact() { known } else { 0 }];
-        let mut done = 0;
-        while done < count as usize {
-            let end = count.min(done as u64 + PIECE as u64) as usize;
-            if end > array.len() {
-                input::grow(&mut array, end - done, count as usize);
-                array.resize(end, T::zeroed());
+        let read = |from: &mut dyn Read, numbers: &mut [T]| {
+            for piece in numbers.chunks_mut(PIECE / size_of::<T>()) {
+                from.read_exact(bytemuck::cast_slice_mut(piece))?;
+                if swaps {
+                    piece.iter_mut().for_each(|x| *x = swap(*x));
+                }
             }
-            let piece = &mut array[done..end];
-            self.exact(bytemuck::cast_slice_mut(piece))?;
-            if swaps {
-                piece.iter_mut().for_each(|x| *x = swap(*x));
-            }
-            done = end;
+            Ok(())
+        };
+        if self.is_exact() {
+            // Memory that is zero to begin with costs nothing until it is written to.
+            let mut array = vec![T::zeroed(); known];
+            let shares = array.chunks_mut(SHARE / size_of::<T>());
+            self.parts(shares.map(|share| (size_of_val(share) as u64, share)).collect(), read)?;
+            return Ok(array);
+        }
+        let mut array = Vec::new();
+        while array.len() < count as usize {
+            let done = array.len();
+            let more = (count as usize - done).min(PIECE / size_of::<T>());
+            input::grow(&mut array, more, count as usize);
+            array.resize(done + more, T::zeroed());
+            read(self, &mut array[done..])?;
         }
         Ok(array)
     }

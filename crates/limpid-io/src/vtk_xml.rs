@@ -6,6 +6,7 @@
 mod arrays;
 mod base64;
 mod blocks;
+mod in_place;
 mod payload;
 mod tags;
 mod xz;

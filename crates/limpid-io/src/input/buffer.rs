@@ -15,6 +15,12 @@ impl<R: Read> Buffer<R> {
         Self { stream, bytes: vec![0; capacity], start: 0, end: 0 }
     }
 
+    /// Goes on with another stream.
+    pub fn restart(&mut self, stream: R) {
+        self.stream = stream;
+        (self.start, self.end) = (0, 0);
+    }
+
     /// The next bytes: at least so many, or all that there are.
     pub fn peek(&mut self, wanted: usize) -> io::Result<&[u8]> {
         while self.end - self.start < wanted {

@@ -29,19 +29,14 @@ impl<'a, 'b> Base64<'a, 'b> {
         Self { text, ready: Vec::with_capacity(3) }
     }
 
+    /// The text after all that has been decoded; None where that ends within four characters.
+    pub fn rest(&mut self) -> Option<&mut Input<'b>> {
+        if self.ready.is_empty() { Some(self.text) } else { None }
+    }
+
     /// Decodes as long as four characters at a time are neither padding nor space, as nearly all are; how many bytes.
     fn run(&mut self, bytes: &mut [u8]) -> Result<usize, Fault> {
-        let text = self.text.peek(1)?;
-        let mut filled = 0;
-        for (bytes, quad) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(text.as_chunks::<4>().0) {
-            let [a, b, c, d] = quad.map(|byte| u32::from(VALUES[byte as usize]));
-            if (a | b | c | d) > 63 {
-                break;
-            }
-            let [_, decoded @ ..] = (a << 18 | b << 12 | c << 6 | d).to_be_bytes();
-            *bytes = decoded;
-            filled += 3;
-        }
+        let filled = run(self.text.peek(1)?, bytes);
         self.text.consume(filled / 3 * 4);
         Ok(filled)
     }
@@ -62,15 +57,7 @@ impl<'a, 'b> Base64<'a, 'b> {
                 }
             };
         }
-        let padding = quad.iter().rev().take_while(|byte| **byte == b'=').count();
-        let bits = quad.iter().try_fold(0u32, |bits, byte| match VALUES[*byte as usize] {
-            0xff if *byte == b'=' && padding <= 2 => Some(bits << 6),
-            0xff => None,
-            value => Some(bits << 6 | u32::from(value)),
-        });
-        let Some(bits) = bits else { return Ok(None) };
-        let [_, bytes @ ..] = bits.to_be_bytes();
-        Ok(Some((bytes, 3 - padding)))
+        Ok(quad_of(quad))
     }
 
     fn fill(&mut self, buffer: &mut [u8]) -> Result<usize, Fault> {
@@ -101,6 +88,48 @@ impl Read for Base64<'_, '_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         Ok(self.fill(buffer)?)
     }
+}
+
+/// Decodes as long as four characters at a time are neither padding nor space, as nearly all are; how many bytes.
+fn run(text: &[u8], bytes: &mut [u8]) -> usize {
+    let mut filled = 0;
+    for (bytes, quad) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(text.as_chunks::<4>().0) {
+        let [a, b, c, d] = quad.map(|byte| u32::from(VALUES[byte as usize]));
+        if (a | b | c | d) > 63 {
+            break;
+        }
+        let [_, decoded @ ..] = (a << 18 | b << 12 | c << 6 | d).to_be_bytes();
+        *bytes = decoded;
+        filled += 3;
+    }
+    filled
+}
+
+/// Decodes a whole text without spaces, whose last four characters may hold more than is wanted; false if it is none.
+pub(super) fn decode(text: &[u8], bytes: &mut [u8]) -> bool {
+    let whole = bytes.len() / 3 * 3;
+    if run(text, &mut bytes[..whole]) < whole {
+        return false;
+    }
+    let rest = &mut bytes[whole..];
+    let Some(quad) = text[whole / 3 * 4..].first_chunk() else { return rest.is_empty() };
+    rest.is_empty()
+        || quad_of(*quad).is_some_and(|(last, count)| {
+            rest.iter_mut().zip(last).for_each(|(to, byte)| *to = byte);
+            count >= rest.len()
+        })
+}
+
+/// The bytes of four characters, and how many of them count.
+fn quad_of(quad: [u8; 4]) -> Option<([u8; 3], usize)> {
+    let padding = quad.iter().rev().take_while(|byte| **byte == b'=').count();
+    let bits = quad.iter().try_fold(0u32, |bits, byte| match VALUES[*byte as usize] {
+        0xff if *byte == b'=' && padding <= 2 => Some(bits << 6),
+        0xff => None,
+        value => Some(bits << 6 | u32::from(value)),
+    })?;
+    let [_, bytes @ ..] = bits.to_be_bytes();
+    Some((bytes, 3 - padding))
 }
 
 #[cfg(test)]

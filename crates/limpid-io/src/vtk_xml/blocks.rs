@@ -3,6 +3,7 @@
 use std::io::{self, Read};
 
 use flate2::read::ZlibDecoder;
+use flate2::{Decompress, FlushDecompress};
 
 use super::xz;
 use crate::error::{Fault, broken};
@@ -66,7 +67,7 @@ impl<R: Read> Blocks<R> {
             let length = group.iter().fold(0u64, |sum, (_, length)| sum.saturating_add(*length));
             let mut bytes = Vec::with_capacity(length.min(AT_ONCE) as usize);
             for (packed, length) in group {
-                compressor.unpack(packed, length, &mut bytes)?;
+                compressor.append(packed, length, &mut bytes)?;
             }
             Ok(bytes)
         };
@@ -98,29 +99,53 @@ impl<R: Read> Read for Blocks<R> {
 
 impl Compressor {
     /// Appends the `length` bytes of a block.
-    fn unpack(self, packed: Vec<u8>, length: u64, bytes: &mut Vec<u8>) -> Result<(), Fault> {
+    fn append(self, packed: Vec<u8>, length: u64, bytes: &mut Vec<u8>) -> Result<(), Fault> {
         let before = bytes.len();
+        // More than that is not believed before it is there.
+        let is_likely = length <= AT_ONCE.max(2 * packed.len() as u64);
         match self {
-            Self::Zlib => {
+            Self::Zlib if !is_likely => {
                 ZlibDecoder::new(&packed[..]).take(length).read_to_end(bytes)?;
             }
-            Self::Lz4 => {
-                if length > (packed.len() as u64).saturating_mul(LZ4_RATIO) {
-                    return broken!("a block of {} bytes cannot hold {length}", packed.len());
-                }
+            Self::Lzma => xz::unpack(packed, length, bytes)?,
+            Self::Lz4 if length > (packed.len() as u64).saturating_mul(LZ4_RATIO) => {
+                return broken!("a block of {} bytes cannot hold {length}", packed.len());
+            }
+            Self::Zlib | Self::Lz4 => {
                 bytes.resize(before + length as usize, 0);
-                match lz4_flex::block::decompress_into(&packed, &mut bytes[before..]) {
-                    Ok(unpacked) => bytes.truncate(before + unpacked),
+                self.unpack(&packed, &mut bytes[before..])?;
+            }
+        }
+        if (bytes.len() - before) as u64 != length { wrong_length(bytes.len() - before, length) } else { Ok(()) }
+    }
+
+    /// Unpacks a block to where its bytes stay.
+    pub fn unpack(self, packed: &[u8], to: &mut [u8]) -> Result<(), Fault> {
+        let length = match self {
+            Self::Zlib => {
+                let mut stream = Decompress::new(true);
+                match stream.decompress(packed, to, FlushDecompress::Finish) {
+                    Ok(_) => stream.total_out() as usize,
                     Err(_) => return broken!("its compressed data is damaged"),
                 }
             }
-            Self::Lzma => xz::unpack(packed, length, bytes)?,
-        }
-        if (bytes.len() - before) as u64 != length {
-            return broken!("a block holds {} bytes instead of {length}", bytes.len() - before);
-        }
-        Ok(())
+            Self::Lz4 => match lz4_flex::block::decompress_into(packed, to) {
+                Ok(length) => length,
+                Err(_) => return broken!("its compressed data is damaged"),
+            },
+            Self::Lzma => {
+                let mut bytes = Vec::with_capacity(to.len());
+                xz::unpack(packed.to_vec(), to.len() as u64, &mut bytes)?;
+                to.iter_mut().zip(&bytes).for_each(|(to, byte)| *to = *byte);
+                bytes.len()
+            }
+        };
+        if length == to.len() { Ok(()) } else { wrong_length(length, to.len() as u64) }
     }
+}
+
+fn wrong_length(length: usize, wanted: u64) -> Result<(), Fault> {
+    broken!("a block holds {length} bytes instead of {wanted}")
 }
 
 /// Exactly so many bytes; memory grows with what is there, not with what is claimed.
