@@ -5,11 +5,11 @@ use crate::{Attribute, Values};
 
 /// Canonical names with their aliases, best first, and the component counts that make sense.
 const ALIASES: [(&str, &[&str], &[usize]); 6] = [
-    ("velocity", &["velocity", "vel", "v"], &[3]),
-    ("density", &["density", "rho", "Rhop"], &[1]),
-    ("radius", &["radius", "pscale", "width", "widths", "h"], &[1]),
-    ("id", &["id", "Idp"], &[1]),
-    ("color", &["color", "Cd"], &[3, 4]),
+    ("velocity", &["velocity", "vel", "v", "velocities"], &[3]),
+    ("density", &["density", "rho", "Rhop", "densities"], &[1]),
+    ("radius", &["radius", "pscale", "width", "widths", "h", "radii"], &[1]),
+    ("id", &["id", "Idp", "ids"], &[1]),
+    ("color", &["color", "Cd", "colors"], &[3, 4]),
     ("life", &["life", "lifetime"], &[1]),
 ];
 
@@ -27,6 +27,12 @@ const SUFFIXES: [[&str; 3]; 4] = [["x", "y", "z"], [":0", ":1", ":2"], ["_0", "_
 
 /// Names of positions as a whole; without a name they are bare x, y, z.
 const POSITIONS: [&str; 7] = ["", "P", "pos", "position", "positions", "points", "coordinates"];
+
+/// What else they are called as a whole, in Taichi's programs, which say v of velocities.
+const WHOLE: &str = "x";
+
+/// Names that an array without rows has for positions alone.
+const FLAT: [&str; 4] = ["pos", "positions", "points", "coordinates"];
 
 /// Renames what has a canonical name, and brings it into its canonical form.
 pub(crate) fn make_canonical(attributes: &mut [Attribute]) {
@@ -58,8 +64,9 @@ pub(crate) fn make_canonical(attributes: &mut [Attribute]) {
 
 /// Takes the positions out of an attribute list, as three columns or as one array.
 pub(crate) fn take_positions(attributes: &mut Vec<Attribute>) -> Option<Positions> {
-    let names_positions =
-        |a: &Attribute| a.components == 3 && POSITIONS.iter().any(|name| a.name.eq_ignore_ascii_case(name));
+    let names_positions = |a: &Attribute| {
+        a.components == 3 && POSITIONS.iter().chain([&WHOLE]).any(|name| a.name.eq_ignore_ascii_case(name))
+    };
     if let Some(index) = attributes.iter().position(names_positions) {
         return Some(Positions::from_triples(attributes.remove(index).values));
     }
@@ -76,6 +83,11 @@ pub(crate) fn take_positions(attributes: &mut Vec<Attribute>) -> Option<Position
     }
     let columns = take(attributes, &columns);
     Some(Positions::from_columns(<[Values; 3]>::try_from(columns).ok()?))
+}
+
+/// Whether an array of this name holds positions, even where they are written as one list of numbers.
+pub(crate) fn is_flat_positions(name: &str) -> bool {
+    FLAT.iter().any(|other| name.eq_ignore_ascii_case(other))
 }
 
 /// Joins the columns of components into vectors.

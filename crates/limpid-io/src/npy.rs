@@ -1,10 +1,13 @@
 //! NPY: one NumPy array, of n rows of x, y and z where it is a file of its own.
 
+mod records;
+
 use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
-use crate::names;
 use crate::raw::{Positions, Raw};
 use crate::values::{Encoding, Scalar, Values};
+use crate::{Attribute, names};
+use records::Records;
 
 pub(crate) const MAGIC: &[u8; 6] = b"\x93NUMPY";
 const LONGEST_HEADER: usize = 1 << 16;
@@ -21,6 +24,16 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
             Ok(Raw::new(Positions::from_triples(values)))
         }
         Shape::Rows(count, columns) => broken!("its shape is ({count}, {columns}), not (n, 3)"),
+        Shape::Records(mut attributes) => {
+            let Some(positions) = names::take_positions(&mut attributes) else {
+                return broken!("its records have no positions, and no x, y and z");
+            };
+            if !input.at_end()? {
+                return broken!("bytes follow its {} records", positions.len());
+            }
+            names::join_components(&mut attributes);
+            Ok(Raw { attributes, ..Raw::new(positions) })
+        }
         Shape::Other(shape) => broken!("its shape is {}, not (n, 3)", quote(shape.as_bytes())),
         Shape::NoNumbers(kind) => broken!("its numbers are of the type {}, not f4 or f8", quote(kind.as_bytes())),
     }
@@ -35,9 +48,11 @@ pub(crate) struct Array {
 pub(crate) enum Shape {
     /// Rows and columns; 1 column for a plain list.
     Rows(u64, u64),
+    /// A list of records, whose fields have names.
+    Records(Vec<Attribute>),
     /// Rows of another number of dimensions, whose values are not read.
     Other(String),
-    /// Texts, objects or records, which are not read.
+    /// Texts or objects, which are not read.
     NoNumbers(String),
 }
 
@@ -58,9 +73,14 @@ pub(crate) fn read_array(input: &mut Input) -> Result<Array, Fault> {
 
     let shape = shape(&header)?;
     let Shape::Rows(rows, columns) = shape else { return Ok(Array { shape, values: Values::U8(Vec::new()) }) };
-    let (scalar, encoding) = match number_type(&header)? {
-        Ok(number) => number,
-        Err(kind) => return Ok(Array { shape: Shape::NoNumbers(kind), values: Values::U8(Vec::new()) }),
+    let descr = entry(&header, "descr")?;
+    if let (Some(records), 1) = (Records::parse(descr), columns) {
+        let shape = Shape::Records(records.read(input, rows)?);
+        return Ok(Array { shape, values: Values::U8(Vec::new()) });
+    }
+    let kind = quoted(descr).map_or("record", |(kind, _)| kind);
+    let Some((scalar, encoding)) = number_type(kind) else {
+        return Ok(Array { shape: Shape::NoNumbers(kind.into()), values: Values::U8(Vec::new()) });
     };
     let values = if columns > 1 && entry(&header, "fortran_order")?.starts_with("True") {
         if columns > MOST_COLUMNS {
@@ -84,12 +104,8 @@ fn entry<'a>(header: &'a str, key: &str) -> Result<&'a str, Fault> {
     }
 }
 
-/// A type such as `'<f4'`, or the one that is no number's.
-fn number_type(header: &str) -> Result<Result<(Scalar, Encoding), String>, Fault> {
-    let descr = entry(header, "descr")?;
-    let Some(name) = descr.strip_prefix('\'').and_then(|descr| descr.split('\'').next()) else {
-        return Ok(Err("record".into()));
-    };
+/// A type such as `<f4`; None: no number's.
+fn number_type(name: &str) -> Option<(Scalar, Encoding)> {
     let encoding = if name.starts_with('>') { Encoding::Big } else { Encoding::Little };
     let scalar = match name.trim_start_matches(['<', '>', '=', '|']) {
         "i1" => Scalar::I8,
@@ -102,16 +118,23 @@ fn number_type(header: &str) -> Result<Result<(Scalar, Encoding), String>, Fault
         "u8" => Scalar::U64,
         "f4" => Scalar::F32,
         "f8" => Scalar::F64,
-        _ => return Ok(Err(name.into())),
+        _ => return None,
     };
-    Ok(Ok((scalar, encoding)))
+    Some((scalar, encoding))
+}
+
+/// A text between quotes, and what follows it.
+fn quoted(text: &str) -> Option<(&str, &str)> {
+    text.trim_start().strip_prefix('\'')?.split_once('\'')
 }
 
 fn shape(header: &str) -> Result<Shape, Fault> {
     let shape = entry(header, "shape")?;
     let shape = shape.split_once(')').map_or(shape, |(shape, _)| shape).trim_start_matches('(');
     let sizes: Vec<&str> = shape.split(',').map(str::trim).filter(|size| !size.is_empty()).collect();
-    match sizes[..] {
+    // Simulations of several scenes at once save one as if it were many.
+    let batches = sizes.iter().take(sizes.len().saturating_sub(2)).take_while(|size| **size == "1").count();
+    match sizes[batches..] {
         [rows] => Ok(Shape::Rows(parse(rows.as_bytes())?, 1)),
         [rows, columns] => Ok(Shape::Rows(parse(rows.as_bytes())?, parse(columns.as_bytes())?)),
         _ => Ok(Shape::Other(shape.into())),

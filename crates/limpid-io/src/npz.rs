@@ -17,7 +17,7 @@ pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
 const MOST_ARRAYS: usize = 4096;
 
 enum Entry {
-    Array(Attribute),
+    Arrays(Vec<Attribute>),
     /// An array of something else, of this name.
     NoNumbers(String),
     /// What is of no interest.
@@ -36,22 +36,33 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let entries = (0..archive.len()).collect();
     let read = |index| Entry::read(&mut archive.clone(), index, length);
     let mut attributes = Vec::new();
-    let mut warnings = Vec::new();
+    let mut objects = Vec::new();
     for entry in parallel::map(entries, read) {
         match entry? {
-            Entry::Array(attribute) => attributes.push(attribute),
-            Entry::NoNumbers(name) => {
-                warnings.push(format!("array {} holds no numbers: left out", quote(name.as_bytes())));
-            }
+            Entry::Arrays(arrays) => attributes.extend(arrays),
+            Entry::NoNumbers(name) => objects.push(name),
             Entry::Other => {}
         }
     }
     let Some(positions) = names::take_positions(&mut attributes) else {
-        return broken!("it has no array of positions, and no x, y and z of one length");
+        return Err(without_positions(&objects));
     };
     attributes.retain(|attribute| attribute.values.len() == positions.len() * attribute.components);
     names::join_components(&mut attributes);
+    let warning = |name: String| format!("array {} holds no numbers: left out", quote(name.as_bytes()));
+    let warnings = objects.into_iter().map(warning).collect();
     Ok(Raw { attributes, warnings, ..Raw::new(positions) })
+}
+
+/// Programs such as PySPH save Python's own objects, which Python alone reads.
+fn without_positions(objects: &[String]) -> Fault {
+    match objects.first() {
+        Some(name) => Fault::Unsupported {
+            what: format!("array {}, an object of Python or a text,", quote(name.as_bytes())),
+            remedy: "load it in Python and save its numbers: numpy.savez('frame.npz', x=x, y=y, z=z)",
+        },
+        None => Fault::Broken("it has no array of positions, and no x, y and z of one length".into()),
+    }
 }
 
 impl Entry {
@@ -77,8 +88,9 @@ impl Entry {
         let npy::Array { shape, values } = npy::read_array(&mut array)?;
         Ok(match shape {
             Shape::Rows(_, components @ 1..=64) => {
-                Self::Array(Attribute { name, components: components as usize, values })
+                Self::Arrays(vec![Attribute { name, components: components as usize, values }])
             }
+            Shape::Records(attributes) => Self::Arrays(attributes),
             // Pickled objects and texts stand beside arrays of numbers.
             Shape::NoNumbers(_) => Self::NoNumbers(name),
             _ => Self::Other,

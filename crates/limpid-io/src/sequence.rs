@@ -26,7 +26,7 @@ pub struct Frame {
     pub number: Option<u64>,
 }
 
-/// Expands inputs into frames. An input is a file, a folder, a pattern of numbered files (`frame_{}.vtk`,
+/// Expands inputs into frames. An input is a file, a folder (of a fluid, whose boundaries are left out), a pattern of numbered files (`frame_{}.vtk`,
 /// `frame_%04d.bgeo`, `frame_####.ply`, `frame_$F4.bgeo`), a glob (`*` and `?` in the file name), a `.vtk.series`
 /// file, whose order stays, or a `.pvd` file, whose frames are ordered by time.
 ///
@@ -39,7 +39,15 @@ pub fn expand(inputs: &[String]) -> Result<Sequence, ReadError> {
         let path = Path::new(input);
         if path.is_dir() {
             sequence.append_files(&mut files);
-            sequence.append(input, folder(input, path)?)?;
+            let mut groups = folder(input, path)?;
+            let boundaries = take_boundaries(&mut groups);
+            if !boundaries.is_empty() {
+                let names = boundaries.join(", ");
+                sequence
+                    .warnings
+                    .push(format!("{input}: left out as boundaries: {names}; give one as the input to draw it"));
+            }
+            sequence.append(input, groups)?;
         } else if path.extension() == Some(OsStr::new("series")) && path.is_file() {
             sequence.append_files(&mut files);
             sequence.frames.extend(series(path)?);
@@ -225,6 +233,25 @@ fn folder(input: &str, folder: &Path) -> Result<Groups, ReadError> {
     let droplets: Vec<Name> = groups.keys().filter(|name| is_of_another(name)).cloned().collect();
     groups.retain(|name, _| !droplets.contains(name));
     Ok(groups)
+}
+
+/// Parts of the names of files of walls and bodies, which solvers write beside those of the fluid.
+const BOUNDARY_MARKS: [&str; 4] = ["bound", "wall", "rigid", "solid"];
+
+/// Takes the sequences that are boundaries by their names, where exactly one other is left; their patterns.
+fn take_boundaries(groups: &mut Groups) -> Vec<String> {
+    let is_boundary = |name: &Name| {
+        let text = format!("{}{}", name.before, name.after).to_ascii_lowercase();
+        BOUNDARY_MARKS.iter().any(|mark| text.contains(mark))
+    };
+    let has_numbers = groups.values().any(|frames| frames[0].number.is_some());
+    let sequences = groups.iter().filter(|(_, frames)| frames[0].number.is_some() == has_numbers);
+    if sequences.filter(|(name, _)| !is_boundary(name)).count() != 1 {
+        return Vec::new();
+    }
+    let taken = groups.keys().filter(|name| is_boundary(name)).map(Name::pattern).collect();
+    groups.retain(|name, _| !is_boundary(name));
+    taken
 }
 
 /// The files that a `.vtk.series` file lists, which is JSON: `{"files": [{"name": "a.vtk", "time": 0}]}`.

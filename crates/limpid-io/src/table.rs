@@ -1,72 +1,81 @@
 //! Text with a particle on each line: CSV of any separator, and XYZ, plain or extended.
 //!
 //! The line before the first row may name the columns; without names, the first three numbers are the position. XYZ may
-//! start with the number of particles and a comment, in which extended XYZ names its columns, and have a chemical
-//! symbol before the numbers.
+//! start with the number of particles and a comment, in which extended XYZ names its columns. Columns of words, such as
+//! chemical symbols, are left out.
 
 use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
-use crate::names;
 use crate::raw::Raw;
 use crate::{Attribute, Values};
+use crate::{names, number};
+
+/// What some editors put before a text to say that it is UTF-8.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let mut header = Vec::new();
     let mut table = Table::default();
+    let mut warnings = Vec::new();
     let mut line = Vec::new();
     let mut number = 0;
     let mut declared = None;
     while input.line_into(&mut line)? {
         number += 1;
-        let text = line.trim_ascii();
-        if number == 1 && text.iter().all(u8::is_ascii_digit) && !text.is_empty() {
+        let text = line.strip_prefix(BYTE_ORDER_MARK).filter(|_| number == 1).unwrap_or(&line).trim_ascii();
+        let is_count = !text.is_empty() && text.iter().all(u8::is_ascii_digit);
+        if number == 1 && is_count {
             declared = Some(parse::<usize>(text)?);
         } else if number == 2 && declared.is_some() {
             header = extended_names(text).unwrap_or_default();
+        } else if is_count && declared == Some(table.rows) {
+            warnings.push("it holds several frames, of which the first is read".into());
+            break;
         } else if text.is_empty() || text.starts_with(b"#") && table.rows > 0 {
             continue;
         } else if !table.push(text) {
             if table.rows > 0 {
                 return broken!("line {number} is no row of {} numbers: {}", table.columns.len(), quote(text));
             }
-            header = fields(text.strip_prefix(b"#").unwrap_or(text)).map(column_name).collect();
+            header = Row::of(text.strip_prefix(b"#").unwrap_or(text)).fields().map(column_name).collect();
         }
     }
     match declared {
         Some(count) if count != table.rows => {
             broken!("it has {} particles where its first line says {count}", table.rows)
         }
-        _ => table.into_particles(header),
+        _ => Ok(Raw { warnings, ..table.into_particles(header)? }),
     }
 }
 
-/// Columns of numbers.
+/// Columns of numbers; None: of words.
 #[derive(Default)]
 struct Table {
-    columns: Vec<Vec<f64>>,
+    columns: Vec<Option<Vec<f64>>>,
     rows: usize,
-    /// Each row starts with a word, such as a chemical symbol.
-    labelled: bool,
 }
 
 impl Table {
     /// Appends a row; false if it is none, or does not go with the rows before.
     fn push(&mut self, text: &[u8]) -> bool {
-        let number = |field: &[u8]| parse::<f64>(field).ok();
+        let row = Row::of(text);
+        let mut fields = row.fields();
         if self.rows == 0 {
-            let found: Vec<&[u8]> = fields(text).collect();
-            self.labelled = found.first().is_some_and(|first| number(first).is_none());
-            let numbers: Option<Vec<f64>> =
-                found[usize::from(self.labelled)..].iter().map(|field| number(field)).collect();
-            let Some(numbers) = numbers.filter(|numbers| numbers.len() >= 3) else { return false };
-            self.columns = numbers.into_iter().map(|x| vec![x]).collect();
-        } else {
-            let mut found = fields(text).skip(usize::from(self.labelled));
-            for column in &mut self.columns {
-                let Some(x) = found.next().and_then(number) else { return false };
-                column.push(x);
+            let is_number = |field: &[u8]| !field.is_empty() && row.number(field).is_some();
+            if row.fields().filter(|field| is_number(field)).count() < 3 {
+                return false;
             }
-            if found.next().is_some() {
+            self.columns = fields.map(|field| row.number(field).map(|x| vec![x])).collect();
+        } else {
+            for column in &mut self.columns {
+                let Some(field) = fields.next() else { return false };
+                if let Some(column) = column {
+                    let Some(x) = row.number(field) else { return false };
+                    column.push(x);
+                }
+            }
+            // A separator may end a row.
+            if fields.any(|field| !field.is_empty()) {
                 return false;
             }
         }
@@ -77,16 +86,28 @@ impl Table {
     fn into_particles(self, mut names: Vec<String>) -> Result<Raw, Fault> {
         let mut columns = self.columns;
         if self.rows == 0 {
-            columns = vec![Vec::new(); names.len()];
-        } else if names.len() == columns.len() + 1 && self.labelled {
-            names.remove(0);
-        } else if names.len() != columns.len() {
+            columns = vec![Some(Vec::new()); names.len()];
+        }
+        if names.last().is_some_and(String::is_empty) {
+            names.pop();
+        }
+        let is_nothing = |column: &Option<Vec<f64>>| column.as_ref().is_some_and(|x| x.iter().all(|x| x.is_nan()));
+        if columns.len() > names.len().max(3) && columns.last().is_some_and(is_nothing) {
+            columns.pop();
+        }
+        if names.len() != columns.len() {
+            // Names may be those of the numbers alone.
+            columns.retain(Option::is_some);
+        }
+        if names.len() != columns.len() {
             names = ["x", "y", "z"].map(String::from).to_vec();
             names.extend((4..=columns.len()).map(|column| format!("column {column}")));
         }
-        let columns = names.into_iter().zip(columns);
-        let mut attributes: Vec<Attribute> =
-            columns.map(|(name, column)| Attribute { name, components: 1, values: Values::F64(column) }).collect();
+        let columns = names.into_iter().zip(columns).filter(|(name, _)| !name.is_empty());
+        let column = |(name, column): (String, Option<Vec<f64>>)| {
+            column.map(|column| Attribute { name, components: 1, values: Values::F64(column) })
+        };
+        let mut attributes: Vec<Attribute> = columns.filter_map(column).collect();
         let Some(positions) = names::take_positions(&mut attributes) else {
             return broken!("it has no columns x, y and z");
         };
@@ -95,18 +116,57 @@ impl Table {
     }
 }
 
-/// The fields of a row: between commas, semicolons or tabs, or else between spaces.
-fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let separator = [b',', b';'].into_iter().find(|separator| text.contains(separator));
-    text.split(move |byte| separator.map_or(byte.is_ascii_whitespace(), |separator| separator == *byte))
-        .map(<[u8]>::trim_ascii)
-        .filter(move |field| separator.is_some() || !field.is_empty())
+/// A line of fields: between semicolons or commas that are not within quotes, or else between spaces.
+struct Row<'a> {
+    text: &'a [u8],
+    separator: Option<u8>,
 }
 
-/// A column's name without quotes and unit: `Pos.x [m]` is `Pos.x`.
+impl<'a> Row<'a> {
+    fn of(text: &'a [u8]) -> Self {
+        let has = |separator: &u8| {
+            text.contains(separator) && text.split(outside_quotes(|byte| byte == *separator)).count() > 1
+        };
+        Self { text, separator: [b';', b','].into_iter().find(has) }
+    }
+
+    fn fields(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
+        let separator = self.separator;
+        let divides = move |byte: u8| separator.map_or(byte.is_ascii_whitespace(), |separator| separator == byte);
+        self.text
+            .split(outside_quotes(divides))
+            .map(<[u8]>::trim_ascii)
+            .filter(move |field| separator.is_some() || !field.is_empty())
+            .map(|field| field.strip_prefix(b"\"").and_then(|field| field.strip_suffix(b"\"")).unwrap_or(field))
+    }
+
+    /// The number of a field, NaN where nothing is in it. Where commas do not separate fields, they may be decimal.
+    fn number(&self, field: &[u8]) -> Option<f64> {
+        if field.is_empty() {
+            return Some(f64::NAN);
+        }
+        match number::f64_of(field) {
+            Some((x, length)) if length == field.len() => Some(x),
+            _ if self.separator == Some(b';') && field.contains(&b',') => {
+                let field: Vec<u8> = field.iter().map(|byte| if *byte == b',' { b'.' } else { *byte }).collect();
+                parse(&field).ok()
+            }
+            _ => parse(field).ok(),
+        }
+    }
+}
+
+fn outside_quotes(divides: impl Fn(u8) -> bool) -> impl FnMut(&u8) -> bool {
+    let mut within = false;
+    move |byte| {
+        within ^= *byte == b'"';
+        !within && divides(*byte)
+    }
+}
+
+/// A column's name without its unit: `Pos.x [m]` is `Pos.x`.
 fn column_name(field: &[u8]) -> String {
-    let name = String::from_utf8_lossy(field);
-    let name = name.trim_matches('"');
+    let name = &*String::from_utf8_lossy(field);
     name.split_once(" [").map_or(name, |(name, _)| name).trim().to_owned()
 }
 

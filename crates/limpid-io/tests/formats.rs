@@ -168,6 +168,19 @@ fn csv_of_several_programs() {
         assert_eq!(attribute(&set, "id").values, Values::I64(vec![6, 4]));
         assert_eq!(attribute(&set, "velocity").values, Values::F32(vec![3.0, 4.0, 5.0, 1.0, 2.0, 3.0]));
     }
+    // A byte order mark, quotes, words, a separator at each end, commas in numbers.
+    let quoted = "\u{feff}\"kind\",\"x\",\"y\",\"z\",\"id\",\n\"a, \",\"0\",\"1\",\"2\",6,\nb,7,8,9,4,\n";
+    let decimal = "x;y;z;id;name\n0,0;1,0;2e0;6;a\n7,0;8;9;4;\n";
+    for text in [quoted, decimal] {
+        let set = folder.read("table.csv", text).unwrap();
+        assert_eq!(set.positions, [[0.0, 1.0, 2.0], [7.0, 8.0, 9.0]]);
+        assert_eq!(set.attributes.len(), 1);
+        assert_eq!(attribute(&set, "id").values, Values::I64(vec![6, 4]));
+    }
+    let gaps = folder.read("gaps.csv", ",x,y,z,rho\n0,0,1,2,\n1,7,8,9,5\n").unwrap();
+    let Values::F32(density) = &attribute(&gaps, "density").values else { panic!() };
+    assert!(gaps.attributes.len() == 1 && density[0].is_nan() && density[1] == 5.0);
+    assert!(matches!(folder.read("gap.csv", "x,y,z\n0,1,2\n7,,9\n"), Err(ReadError::NotFinite { first: 1, .. })));
     let none = folder.read("none.csv", "x,y,z\n").unwrap();
     assert_eq!((none.len(), &none.warnings[..]), (0, &["no particles".to_owned()][..]));
     for broken in ["hello\n", "x,y\n1,2\n", "x,y,z\n1,2\n", "x,y,z\n1,2,3\n1,2,three\n", "1,2,3\nx,y,z\n"] {
@@ -183,8 +196,15 @@ fn xyz_with_and_without_a_count() {
     let counted = "2\nwater\nO 1 2 3\nO 4 5 6\n";
     let extended = "2\nLattice=\"1 0 0\" Properties=species:S:1:vel:R:3:pos:R:3:id:I:1 Time=0.5\n\
         O 7 8 9 1 2 3 11\nO 7 8 9 4 5 6 12\n";
-    for text in [bare, counted, extended] {
+    let words_within = "2\nProperties=id:I:1:species:S:1:pos:R:3:fixed:L:1\n11 O 1 2 3 T\n12 O 4 5 6 F\n";
+    let frames = "2\nwater\nO 1 2 3\nO 4 5 6\n2\nwater\nO 1 2 3\nO 4 5 7\n";
+    for text in [bare, counted, extended, words_within, frames] {
         let set = folder.read("text.xyz", text).unwrap();
+        assert_eq!(set.warnings.len(), usize::from(text == frames));
+        if text == words_within {
+            assert_eq!(set.attributes.len(), 1);
+            assert_eq!(attribute(&set, "id").values, Values::I64(vec![11, 12]));
+        }
         assert_eq!(set.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
         if text == extended {
             assert_eq!(attribute(&set, "velocity").values, Values::F32(vec![7.0, 8.0, 9.0, 7.0, 8.0, 9.0]));
@@ -208,8 +228,25 @@ fn json_of_positions_or_named_arrays() {
             assert_eq!(attribute(&set, "id").values, Values::I64(vec![7, 8]));
         }
     }
+    let flat = r#"{"positions": [1, 2, 3, 4, 5, 6], "velocities": [1, 2, 3, 1, 2, 3]}"#;
+    let objects =
+        r#"[{"position": [1, 2, 3], "vel": [1, 2, 3], "name": "a"}, {"vel": [1, 2, 3], "position": [4, 5, 6]}]"#;
+    let within = r#"{"time": 1, "name": "b", "particles": {"x": [[1, 2, 3], [4, 5, 6]], "v": [[1, 2, 3], [1, 2, 3]]}}"#;
+    let marked = "\u{feff}{\"p\": [{\"x\": 1, \"y\": 2, \"z\": 3, \"vx\": 1, \"vy\": 2, \"vz\": 3},\
+        {\"x\": 4, \"y\": 5, \"z\": 6, \"vx\": 1, \"vy\": 2, \"vz\": 3, \"more\": 1}]}";
+    for text in [flat, objects, within, marked] {
+        let set = folder.read("points.json", text).unwrap();
+        assert_eq!(set.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        assert_eq!(set.attributes.len(), 1);
+        assert_eq!(attribute(&set, "velocity").values, Values::F32(vec![1.0, 2.0, 3.0, 1.0, 2.0, 3.0]));
+    }
+    assert!(matches!(folder.read("nan.json", "[[1,2,3],[1,null,3]]"), Err(ReadError::NotFinite { first: 1, .. })));
+    let camera = r#"{"camera": {"position": [1, 2, 3]}}"#;
+    let unlike = "[[1,2,3],[1,2]]";
+    let error = folder.read("unlike.json", unlike).unwrap_err().to_string();
+    assert!(error.contains("element 1 of an array is unlike those before"), "{error}");
     let deep = "[".repeat(100_000);
-    for broken in ["{", "[[1,2]]", "[[1,2,3],", "{\"bodies\": []}", "hello", "[] []", &deep] {
+    for broken in [camera, "{", "[[1,2]]", "[[1,2,3],", "{\"bodies\": []}", "hello", "[] []", &deep] {
         let error = folder.read("broken.json", broken).unwrap_err();
         assert!(matches!(error, ReadError::Broken { .. }), "{error}");
     }
@@ -228,6 +265,27 @@ fn npy_of_any_type_and_order() {
     for bytes in files {
         let set = folder.read("points.npy", bytes).unwrap();
         assert_eq!(set.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    }
+    // Several scenes at once, of which there is one; records with names, with room between the fields.
+    let with_header = |header: &str, data: &[u8]| {
+        let length = (header.len() as u16).to_le_bytes();
+        [&b"\x93NUMPY\x01\0"[..], &length, header.as_bytes(), data].concat()
+    };
+    let batch = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2, 3), }";
+    let batch = with_header(batch, &rows.map(f32::to_le_bytes).concat());
+    assert_eq!(folder.read("batch.npy", batch).unwrap().positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    let records = "{'descr': [('id', '|u1'), ('', '|V3'), ('pos', '<f4', (3,)), ('rho', '<f8')], 'fortran_order': False, 'shape': (2,), }";
+    let data = rows.chunks(3).zip([7, 8]).flat_map(|(row, id)| {
+        let row = row.iter().flat_map(|x| x.to_le_bytes());
+        [id, 0, 0, 0].into_iter().chain(row).chain(f64::from(id).to_le_bytes()).collect::<Vec<u8>>()
+    });
+    let records = with_header(records, &data.collect::<Vec<u8>>());
+    let set = folder.read("records.npy", &records).unwrap();
+    assert_eq!(set.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(attribute(&set, "id").values, Values::I64(vec![7, 8]));
+    assert_eq!(attribute(&set, "density").values, Values::F32(vec![7.0, 8.0]));
+    for length in 0..records.len() {
+        assert!(folder.read("cut.npy", &records[..length]).is_err(), "{length}");
     }
     for broken in [npy("<c8", false, 0, &[]), npy("<f4", false, usize::MAX, &[0; 12]), npy("<f4", false, 0, &[0])] {
         assert!(matches!(folder.read("broken.npy", broken), Err(ReadError::Broken { .. })));

@@ -52,6 +52,26 @@ fn several_sequences_are_told_apart() {
 }
 
 #[test]
+fn boundaries_beside_one_fluid_are_left_out() {
+    let folder = folder_of(
+        "boundary",
+        &["PartFluid_1.vtk", "PartFluid_2.vtk", "PartBound_1.vtk", "PartBound_2.vtk", "wall.ply"],
+    );
+    let sequence = expand(&[folder.path("")]).unwrap();
+    assert_eq!(numbers(&sequence), [1, 2]);
+    assert!(sequence.frames.iter().all(|frame| frame.path.to_str().unwrap().contains("PartFluid")));
+    let warning = &sequence.warnings[0];
+    assert!(warning.contains("PartBound_{}.vtk") && warning.contains("wall.ply"), "{warning}");
+    // They are drawn when they are asked for, and nothing is guessed among several fluids, or of boundaries alone.
+    assert_eq!(numbers(&expand(&[folder.path("PartBound_{}.vtk")]).unwrap()), [1, 2]);
+    folder.write("oil_1.vtk", "");
+    assert!(matches!(expand(&[folder.path("")]), Err(ReadError::SeveralSequences { .. })));
+    let folder = folder_of("boundary-alone", &["bound_1.vtk", "bound_2.vtk"]);
+    let sequence = expand(&[folder.path("")]).unwrap();
+    assert!(numbers(&sequence) == [1, 2] && sequence.warnings.is_empty());
+}
+
+#[test]
 fn a_file_beside_a_sequence_is_left_out() {
     let folder = folder_of("beside", &["f_1.ply", "f_2.ply", "tank.ply"]);
     let sequence = expand(&[folder.path("")]).unwrap();
