@@ -1,6 +1,6 @@
 //! GPU time of each pass by timestamp queries.
 
-use std::sync::mpsc::Receiver;
+use std::sync::{Arc, OnceLock};
 
 const MAX_PASSES: u32 = 512;
 
@@ -26,7 +26,8 @@ pub struct Profiler {
     readable: wgpu::Buffer,
     names: Vec<String>,
     ns_per_tick: f64,
-    arrival: Option<Receiver<bool>>,
+    /// Whether what was asked for is mapped, once that is known.
+    arrival: Option<Arc<OnceLock<bool>>>,
 }
 
 impl Profiler {
@@ -104,14 +105,14 @@ impl Profiler {
 
     /// Asks for the times, after the frame has been submitted.
     pub fn start(&mut self) {
-        let (sender, receiver) = std::sync::mpsc::channel();
         let bytes = self.bytes();
         if bytes > 0 {
-            // Nobody listens any more: then nobody wants them.
+            let arrival = Arc::new(OnceLock::new());
+            let told = Arc::clone(&arrival);
             self.readable.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
-                let _ = sender.send(result.is_ok());
+                let _ = told.set(result.is_ok());
             });
-            self.arrival = Some(receiver);
+            self.arrival = Some(arrival);
         }
     }
 
@@ -127,7 +128,7 @@ impl Profiler {
     /// included: from the end of the one before to its own end, so that they add up to the frame. (Some drivers take the
     /// timestamp at a pass's begin too late.) Starts over for the next frame.
     pub fn arrived(&mut self) -> Option<Vec<PassTime>> {
-        let is_mapped = self.arrival.as_ref()?.try_recv().ok()?;
+        let is_mapped = *self.arrival.as_ref()?.get()?;
         self.arrival = None;
         let bytes = self.bytes();
         let ticks: Vec<u64> = match self.readable.get_mapped_range(0..bytes) {

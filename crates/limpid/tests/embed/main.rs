@@ -5,6 +5,7 @@
 mod host;
 
 mod buffers;
+mod devices;
 mod frames;
 mod memory;
 mod studio;
