@@ -16,10 +16,12 @@ mod write;
 use cli::{Command, Parsed};
 use failure::Failure;
 use std::process::ExitCode;
+use std::time::Instant;
 
 fn main() -> ExitCode {
+    let started = Instant::now();
     quiet_driver::prepare();
-    match run() {
+    match run(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             console::note(&format!("error: {}", failure::one_line(&failure.to_string())));
@@ -28,10 +30,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn run() -> Result<(), Failure> {
+fn run(started: Instant) -> Result<(), Failure> {
     match cli::parse(std::env::args_os())? {
         Parsed::Text(text) => console::print(&text),
-        Parsed::Command(Command::Render(arguments)) => render::run(arguments),
+        Parsed::Command(Command::Render(arguments)) => render::run(arguments, started),
         Parsed::Command(Command::View(arguments)) => view::run(arguments),
         Parsed::Command(Command::Info(arguments)) => info::run(&arguments),
         Parsed::Command(Command::Sample(arguments)) => sample::run(&arguments),

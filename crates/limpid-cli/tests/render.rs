@@ -142,9 +142,25 @@ fn timings_are_json_alone() {
         assert_eq!(timings["size"], serde_json::json!([96, 64]));
         assert!(timings["adapter"].is_string());
         assert!(timings["frame_ms"]["runs"].as_u64().unwrap() >= 11);
+        assert!(timings["start_ms"].as_f64().unwrap() > 0.0);
         let time = |name: &str| timings["frame_ms"][name].as_f64().unwrap();
         assert!(time("min") > 0.0 && time("min") <= time("median"));
         assert!(timings["passes"].as_array().unwrap().iter().all(|pass| pass["name"].is_string()));
+    }
+}
+
+#[test]
+fn pipelines_are_kept_where_the_environment_says() {
+    let folder = Folder::new();
+    folder.write_pos("a.pos", &cube(2, 0.0));
+    folder.succeed(&render(&["a.pos", "-o", "a.png"]));
+    assert_eq!(folder.names(), ["a.png", "a.pos"], "an empty variable keeps none");
+    for _ in 0..2 {
+        let output =
+            folder.command(&render(&["a.pos", "-o", "b.png"])).env("LIMPID_CACHE_DIR", "kept").output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        assert!(folder.bytes("a.png") == folder.bytes("b.png"));
+        assert_eq!(fs::read_dir(folder.path("kept")).unwrap().count(), 1);
     }
 }
 

@@ -97,7 +97,8 @@ impl Gpu {
     }
 }
 
-/// What limpid asks of an adapter: the default limits, larger buffers and images and exact blending where they exist.
+/// What limpid asks of an adapter: the default limits, larger buffers and images, exact blending and a cache of pipelines where they
+/// exist.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     wgpu::DeviceDescriptor {
         label: Some("limpid"),
@@ -107,7 +108,8 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
             max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
             ..wgpu::Limits::default()
         },
-        required_features: adapter.features() & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE),
+        required_features: adapter.features()
+            & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::PIPELINE_CACHE),
         ..Default::default()
     }
 }

@@ -1,16 +1,20 @@
 //! A whole picture, off screen: drawn, and everything read back.
 
 use crate::guard::guarded;
+use crate::pipeline_file::PipelineFile;
 use crate::samples::{Mean, mixes, sample_offset_px};
 use crate::{Aov, Background, Error, Gpu, Image, Painter, Picture, Shot, Timings, motion, readback};
 use limpid::{Partial, ParticleSlices, Particles, PassTime, Profiler, Radius, Renderer};
 use std::ops::Range;
+use std::path::Path;
 use std::time::Instant;
 
 /// Renders shots on one device, reusing its pipelines and buffers from shot to shot.
 pub struct Offscreen {
     gpu: Gpu,
     painter: Painter,
+    pipeline_file: Option<PipelineFile>,
+    first_submission: Option<Instant>,
 }
 
 impl Offscreen {
@@ -20,7 +24,7 @@ impl Offscreen {
     /// The driver refuses a pipeline.
     pub fn new(gpu: Gpu) -> Result<Self, Error> {
         let painter = guarded(&gpu.device, || Ok(Painter::new(&gpu.device, &gpu.queue)))?;
-        Ok(Self { gpu, painter })
+        Ok(Self { gpu, painter, pipeline_file: None, first_submission: None })
     }
 
     /// What it runs on.
@@ -31,6 +35,19 @@ impl Offscreen {
     /// The passes of the fluid.
     pub fn renderer_mut(&mut self) -> &mut Renderer {
         self.painter.renderer_mut()
+    }
+
+    /// Keeps the pipelines of the first picture in a file of this folder, which is made if need be, so that the driver need not
+    /// build them anew in the next run; for drivers that let it be done, those of Vulkan. Whatever is wrong with folder or
+    /// file, pictures come all the same. Call it before the first one.
+    pub fn keep_pipelines_in(&mut self, folder: &Path) {
+        self.pipeline_file = PipelineFile::open(&self.gpu.device, folder);
+        self.painter.set_pipeline_cache(self.pipeline_file.as_ref().map(|file| file.cache().clone()));
+    }
+
+    /// When the GPU was first given a picture to draw.
+    pub fn first_submission(&self) -> Option<Instant> {
+        self.first_submission
     }
 
     /// What the pictures to come have for a sky: an equirectangular picture
@@ -177,7 +194,13 @@ impl Offscreen {
         let Gpu { device, queue, .. } = &self.gpu;
         let mut encoder = device.create_command_encoder(&Default::default());
         self.painter.draw(device, queue, &mut encoder, shot, particles)?;
-        queue.submit([encoder.finish()]);
+        let submission = encoder.finish();
+        self.first_submission.get_or_insert_with(Instant::now);
+        queue.submit([submission]);
+        // While the GPU draws.
+        if let Some(file) = self.pipeline_file.take() {
+            file.save();
+        }
         Ok(())
     }
 

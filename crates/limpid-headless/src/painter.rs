@@ -24,6 +24,7 @@ pub struct Painter {
     display: Display,
     images: Option<Images>,
     partial: Option<Partial>,
+    pipeline_cache: Option<wgpu::PipelineCache>,
     /// Whether a first picture's pipelines have been built.
     is_warm: bool,
 }
@@ -94,6 +95,7 @@ impl Painter {
             display: Display::new(device, SHOWN),
             images: None,
             partial: None,
+            pipeline_cache: None,
             is_warm: false,
         }
     }
@@ -144,6 +146,11 @@ impl Painter {
     /// ([`crate::Offscreen::partial`]) and merged. None: the particles.
     pub fn set_partial(&mut self, partial: Option<Partial>) {
         self.partial = partial;
+    }
+
+    /// What the first picture's pipelines are built from and added to; None: from nothing. Call it before that picture.
+    pub fn set_pipeline_cache(&mut self, cache: Option<wgpu::PipelineCache>) {
+        self.pipeline_cache = cache;
     }
 
     /// The particles of a shot on the device, with what its settings need of them.
@@ -265,7 +272,7 @@ impl Painter {
         if shot.background == Background::Scene {
             pipelines.extend(self.backdrop.pipelines(&surroundings_of(shot, None, self.renderer.environment_map())));
         }
-        pipelines.build();
+        pipelines.build(self.pipeline_cache.as_ref());
         Ok(())
     }
 

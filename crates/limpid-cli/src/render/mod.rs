@@ -10,13 +10,14 @@ use crate::console;
 use crate::failure::Failure;
 use crate::write::{write_aov, write_layers, write_picture};
 use clap::Args;
-use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot};
+use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot, pipeline_folder};
 use limpid_shot::environment;
 use limpid_shot::{Diffuse, FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
 use progress::Progress;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// The command line of `limpid render`.
 #[derive(Args, Debug)]
@@ -38,8 +39,8 @@ pub struct RenderArguments {
     partials: Vec<PathBuf>,
 }
 
-/// Renders every frame and writes its files.
-pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
+/// Renders every frame and writes its files. `started`: when the program was.
+pub fn run(arguments: Box<RenderArguments>, started: Instant) -> Result<(), Failure> {
     let options = config::effective(&arguments.options, arguments.config.as_deref())?;
     if arguments.print_config {
         return console::print(&config::print(&options)?);
@@ -59,6 +60,9 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
     let props = Props::load(&options, &sequence.frames)?;
     let map = options.environment.as_deref().map(|path| environment::read(Path::new(path))).transpose()?;
     let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
+    if let Some(folder) = pipeline_folder() {
+        offscreen.keep_pipelines_in(&folder);
+    }
     offscreen.set_partial(merged);
     if let (Some(map), Some(path)) = (map, &options.environment) {
         let bad = |source| Failure::Frame { path: path.into(), source };
@@ -115,7 +119,7 @@ pub fn run(arguments: Box<RenderArguments>) -> Result<(), Failure> {
         if index + 1 == sequence.frames.len()
             && let Some(target) = &outputs.timings
         {
-            timings::measure(&mut offscreen, &shot, target, &frame.path)?;
+            timings::measure(&mut offscreen, &shot, target, &frame.path, started)?;
         }
         progress.advance();
     }

@@ -8,6 +8,7 @@ use limpid_headless::{Offscreen, Shot, Timings};
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
+use std::time::Instant;
 
 /// Frames to take the median of.
 const RUNS: usize = 11;
@@ -18,6 +19,8 @@ struct Report<'a> {
     adapter: &'a str,
     particles: usize,
     size: [u32; 2],
+    /// From the program's start until the GPU was given the first frame.
+    start_ms: Option<f64>,
     frame_ms: FrameTime,
     passes: Vec<Pass<'a>>,
 }
@@ -41,12 +44,14 @@ pub fn measure(
     shot: &Shot<'_>,
     target: &TimingsTarget,
     input: &Path,
+    started: Instant,
 ) -> Result<(), Failure> {
     let timings = offscreen.time(shot, RUNS).map_err(|source| Failure::Frame { path: input.to_owned(), source })?;
     let report = Report {
         adapter: &offscreen.gpu().info.name,
         particles: shot.particles.positions.len(),
         size: shot.size,
+        start_ms: offscreen.first_submission().map(|first| (first - started).as_secs_f64() * 1e3),
         frame_ms: frame_time(&timings),
         passes: timings.passes.iter().map(|pass| Pass { name: &pass.name, ms: pass.ms }).collect(),
     };

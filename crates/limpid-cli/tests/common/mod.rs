@@ -54,7 +54,14 @@ impl Folder {
 
     /// Runs the program in it.
     pub fn limpid(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_limpid")).args(arguments).current_dir(&self.0).output().unwrap()
+        self.command(arguments).output().unwrap()
+    }
+
+    /// The program, to be run in it. It keeps no pipelines: tests leave the user's folders alone.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_limpid"));
+        command.args(arguments).current_dir(&self.0).env("LIMPID_CACHE_DIR", "");
+        command
     }
 
     /// Runs the program, which must succeed; its standard output.

@@ -120,11 +120,11 @@ impl Kernel {
     }
 
     pub(super) fn pipeline(&self) -> &wgpu::ComputePipeline {
-        self.source.pipeline.get_or_init(|| self.source.build())
+        self.source.pipeline.get_or_init(|| self.source.build(None))
     }
 
-    pub(super) fn build_ahead(&self) {
-        match without_errors(&self.source.device, || self.source.build()) {
+    pub(super) fn build_ahead(&self, cache: Option<&wgpu::PipelineCache>) {
+        match without_errors(&self.source.device, || self.source.build(cache)) {
             // Another may have been quicker.
             Some(pipeline) => drop(self.source.pipeline.set(pipeline)),
             None => self.source.module.forget(),
@@ -133,7 +133,7 @@ impl Kernel {
 }
 
 impl Source {
-    fn build(&self) -> wgpu::ComputePipeline {
+    fn build(&self, cache: Option<&wgpu::PipelineCache>) -> wgpu::ComputePipeline {
         let Self { device, module, entry_point, constants, pipeline_layout, .. } = self;
         let constants: Vec<_> = constants.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -142,7 +142,7 @@ impl Source {
             module: &module.parsed(device),
             entry_point: Some(entry_point),
             compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            cache: None,
+            cache,
         })
     }
 }

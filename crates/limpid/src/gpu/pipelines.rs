@@ -27,10 +27,10 @@ impl Pending<'_> {
         }
     }
 
-    fn build(&self) {
+    fn build(&self, cache: Option<&wgpu::PipelineCache>) {
         match self {
-            Self::Kernel(kernel) => kernel.build_ahead(),
-            Self::Raster(raster) => raster.build_ahead(),
+            Self::Kernel(kernel) => kernel.build_ahead(cache),
+            Self::Raster(raster) => raster.build_ahead(cache),
         }
     }
 }
@@ -52,13 +52,16 @@ impl Pipelines {
 
     /// Builds those that are not there yet, and returns when all are: on as many threads as the machine has cores, in a browser on
     /// the one there is. One that the driver refuses is tried again when it is used: the error is told there.
-    pub fn build(&self) {
+    ///
+    /// `cache`: what the driver is given back of an earlier run, and adds to ([`wgpu::PipelineCache::get_data`] is to be kept for the
+    /// next); None: it starts anew.
+    pub fn build(&self, cache: Option<&wgpu::PipelineCache>) {
         let kernels = self.kernels.iter().filter(|kernel| !kernel.is_built()).map(Pending::Kernel);
         let rasters = self.rasters.iter().filter(|raster| !raster.is_built()).map(Pending::Raster);
         let mut pending: Vec<Pending<'_>> = kernels.chain(rasters).collect();
         // Those with the most source first: they take longest, and would keep one thread busy at the end.
         pending.sort_by_key(|pending| std::cmp::Reverse(pending.source_bytes()));
-        build_all(&pending);
+        build_all(&pending, cache);
     }
 }
 
@@ -78,18 +81,18 @@ pub(super) fn without_errors<T>(device: &wgpu::Device, make: impl FnOnce() -> T)
 }
 
 #[cfg(target_arch = "wasm32")]
-fn build_all(pending: &[Pending<'_>]) {
-    pending.iter().for_each(Pending::build);
+fn build_all(pending: &[Pending<'_>], cache: Option<&wgpu::PipelineCache>) {
+    pending.iter().for_each(|pending| pending.build(cache));
 }
 
 #[cfg(not(target_arch = "wasm32"))]
-fn build_all(pending: &[Pending<'_>]) {
+fn build_all(pending: &[Pending<'_>], cache: Option<&wgpu::PipelineCache>) {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     let next = AtomicUsize::new(0);
     let work = || {
         while let Some(pending) = pending.get(next.fetch_add(1, Ordering::Relaxed)) {
-            pending.build();
+            pending.build(cache);
         }
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);

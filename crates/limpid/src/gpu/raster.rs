@@ -33,11 +33,11 @@ impl Raster {
     }
 
     pub fn pipeline(&self) -> &wgpu::RenderPipeline {
-        self.0.pipeline.get_or_init(|| build(&self.0.device, &self.0.source))
+        self.0.pipeline.get_or_init(|| build(&self.0.device, &self.0.source, None))
     }
 
-    pub(super) fn build_ahead(&self) {
-        match without_errors(&self.0.device, || build(&self.0.device, &self.0.source)) {
+    pub(super) fn build_ahead(&self, cache: Option<&wgpu::PipelineCache>) {
+        match without_errors(&self.0.device, || build(&self.0.device, &self.0.source, cache)) {
             // Another may have been quicker.
             Some(pipeline) => drop(self.0.pipeline.set(pipeline)),
             None => self.0.source.module.forget(),
@@ -53,7 +53,7 @@ impl Raster {
     }
 }
 
-fn build(device: &wgpu::Device, source: &RasterSource) -> wgpu::RenderPipeline {
+fn build(device: &wgpu::Device, source: &RasterSource, cache: Option<&wgpu::PipelineCache>) -> wgpu::RenderPipeline {
     let RasterSource { module, layout, vertex, vertices, fragment, color, depth, samples } = source;
     let module = &module.parsed(device);
     let vertices: &[_] = vertices.as_slice();
@@ -78,6 +78,6 @@ fn build(device: &wgpu::Device, source: &RasterSource) -> wgpu::RenderPipeline {
             targets: if color.is_some() { &targets } else { &[] },
         }),
         multiview_mask: None,
-        cache: None,
+        cache,
     })
 }

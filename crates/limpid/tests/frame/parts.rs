@@ -201,7 +201,7 @@ fn pipelines_built_ahead_change_no_bit() {
         let mut renderer = Renderer::new(device, &FORMAT);
         let frame = stage.frame(&all);
         let asked = renderer.pipelines_of(device, |renderer, encoder| renderer.prepare(device, queue, encoder, &frame));
-        asked.unwrap().build();
+        asked.unwrap().build(None);
         assert!(renderer.buffers().is_none(), "nothing is prepared");
         assert_same("built ahead", &stage.whole(gpu, &mut renderer), &expected);
 
