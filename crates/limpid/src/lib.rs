@@ -53,6 +53,11 @@
 //! that are only read may get new cases and fields at any time; the structs that a host fills in are filled from a default
 //! (`Settings { filter_scale, ..Settings::default() }`) or, where there is none, as a whole: a new field there is a new version.
 
+/// The code of docs/embedding.md, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/embedding.md")]
+struct Embedding;
+
 mod agitation;
 mod backdrop;
 mod bodies;
