@@ -15,4 +15,4 @@ pub use bench::Bench;
 pub use plot::fig9;
 pub use report::{Measurement, PassMeasurement, Report, Spread};
 pub use suite::{Case, Suite};
-pub use tiled::Tiled;
+pub use tiled::{RADIUS, Tiled};

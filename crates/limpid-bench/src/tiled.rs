@@ -4,8 +4,8 @@ use limpid_io::ReadError;
 use std::path::Path;
 use std::sync::Arc;
 
-/// World units; half the spacing at rest.
-pub(crate) const RADIUS: f32 = 0.025;
+/// Of all particles here, world units: half the spacing at rest.
+pub const RADIUS: f32 = 0.025;
 
 /// The frame that is tiled, 24,360 particles.
 const FRAME: &[u8] = include_bytes!("../../../data/dam_break_double/ParticleData_Fluid_20.bgeo");
