@@ -3,7 +3,7 @@
 //! All of it runs in the release profile: the tests render real frames, and demo and tests share one build of wgpu.
 
 use crate::shell::{Result, cargo, run, steps};
-use crate::{data, driver, toolchain, web};
+use crate::{bevy, data, driver, toolchain, web};
 
 /// Everything.
 pub fn everything() -> Result {
@@ -32,7 +32,8 @@ pub fn quick() -> Result {
 }
 
 fn format() -> Result {
-    run(cargo().args(["fmt", "--all", "--", "--check"])).map_err(|_| "run `cargo fmt --all`".into())
+    run(cargo().args(["fmt", "--all", "--", "--check"])).map_err(|_| String::from("run `cargo fmt --all`"))?;
+    bevy::format()
 }
 
 fn lints() -> Result {

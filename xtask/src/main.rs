@@ -1,6 +1,7 @@
 //! Set-up, demo and checks of this repository. `cargo xtask` lists the verbs.
 
 mod apt;
+mod bevy;
 mod checks;
 mod data;
 mod demo;
@@ -23,6 +24,7 @@ Usage: cargo xtask VERB
   check             the quick part of it: format, lints, tests that need no GPU
   web               build the viewer's page in out/web
   web --serve       and serve it at http://localhost:8080
+  bevy              test the plugin for Bevy; compiling Bevy takes long, so `test` leaves it out
   figures           render the comparison pictures of docs/filters.md
   gallery           render the other pictures of docs
   golden            compare with the golden pictures
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         ["check"] => checks::quick(),
         ["web"] => web::build(),
         ["web", "--serve"] => web::serve(),
+        ["bevy"] => bevy::check(),
         ["figures"] => figures::render_all(),
         ["gallery"] => gallery::render_all(),
         ["golden"] => golden::compare(),
