@@ -63,9 +63,9 @@ fn ranked() -> Vec<wgpu::Adapter> {
     adapters
 }
 
-/// wgpu's own, without the dispatch that it adds to every indirect one to look at its arguments: limpid's kernels write them. On
+/// wgpu's own flags of an instance, without the dispatch that it adds to every indirect one to look at its arguments: limpid's kernels write them. On
 /// D3D12 kernels would no longer be told the number of groups.
-fn instance_flags() -> wgpu::InstanceFlags {
+pub fn instance_flags() -> wgpu::InstanceFlags {
     let flags = wgpu::InstanceFlags::from_env_or_default();
     if cfg!(windows) { flags } else { flags - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL }
 }

@@ -14,7 +14,7 @@ mod shot;
 mod show;
 
 pub use aov::{Aov, Image};
-pub use gpu::{AdapterInfo, Gpu, adapters, choose, device_descriptor};
+pub use gpu::{AdapterInfo, Gpu, adapters, choose, device_descriptor, instance_flags};
 pub use guard::guarded;
 pub use limpid::PassTime;
 pub use offscreen::Offscreen;

@@ -5,7 +5,7 @@ use crate::desk::{Command, Desk};
 use crate::frames::Source;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use limpid_headless::{choose, device_descriptor};
+use limpid_headless::{choose, device_descriptor, instance_flags};
 use limpid_io::Sequence;
 use limpid_shot::Options;
 use std::path::PathBuf;
@@ -59,6 +59,7 @@ pub fn run(opening: Opening) -> Result<(), String> {
 fn setup(wanted: Option<String>) -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = wgpu::Backends::PRIMARY;
+    setup.instance_descriptor.flags = instance_flags();
     setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
         let shows = |adapter: &&wgpu::Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
         let usable = adapters.iter().filter(shows).cloned().collect();
