@@ -60,12 +60,28 @@ fn is_perspective() -> bool {
     return view.far == 0.0;
 }
 
+// What the rays of all pixels have in common. Loops take it before they begin: CPU drivers ask a uniform anew, with a check of
+// its bounds, wherever it is named.
+struct Rays {
+    zero: vec2f,
+    step: vec2f,
+    is_perspective: bool,
+}
+
+fn pixel_rays() -> Rays {
+    return Rays(view.px_zero, view.px_step, is_perspective());
+}
+
+fn ray_at(rays: Rays, px: vec2f) -> Ray {
+    let at = rays.zero + px * rays.step;
+    // No branch: to CPU drivers it is dear, whichever way it goes.
+    let origin = select(at, vec2f(0.0), rays.is_perspective);
+    let slope = select(vec2f(0.0), at, rays.is_perspective);
+    return Ray(vec3f(origin, 0.0), vec3f(slope, -1.0));
+}
+
 fn pixel_ray(px: vec2f) -> Ray {
-    let at = view.px_zero + px * view.px_step;
-    if is_perspective() {
-        return Ray(vec3f(0.0), vec3f(at, -1.0));
-    }
-    return Ray(vec3f(at, 0.0), vec3f(0.0, 0.0, -1.0));
+    return ray_at(pixel_rays(), px);
 }
 
 fn nearness_of(depth: f32) -> f32 {

@@ -8,9 +8,14 @@
 
 const FULL: u32 = 0x80000000u;
 
+// A wide splat. All that is the same for its texels: CPU drivers would ask the uniforms for it at each.
 struct Splat {
-    ball: Ball,
     box: PixelBox,
+    // Lights see without perspective: from the centre to the middle of the box's first texel, and from texel to texel.
+    first: vec2f,
+    step: vec2f,
+    radius_squared: f32,
+    longest: f32, // half chord that the near plane leaves
     front: f32,
     back: f32,
 }
@@ -19,10 +24,20 @@ fn splat_of(index: u32) -> Splat {
     let ball = ball_of(index);
     let center = -ball.center.z;
     let radius = ball.radius / settings.splat_scale;
-    if !is_drawn(ball) {
-        return Splat(ball, PixelBox(vec2i(0), vec2i(-1)), 0.0, 0.0);
+    var box = PixelBox(vec2i(0), vec2i(-1));
+    if is_drawn(ball) {
+        box = texel_box(ball, 1.0, view.size);
     }
-    return Splat(ball, texel_box(ball, 1.0, view.size), max(center - radius, view.near), center + radius);
+    let first = view.px_zero + (vec2f(box.min) + 0.5) * view.px_step - ball.center.xy;
+    let front = max(center - radius, view.near);
+    return Splat(box, first, view.px_step, ball.radius * ball.radius, center - view.near, front, center + radius);
+}
+
+// Length of the splat's liquid at a texel; 0: it misses.
+fn chord_at(splat: Splat, texel: vec2i) -> f32 {
+    let offset = splat.first + vec2f(texel - splat.box.min) * splat.step;
+    let half = sqrt(max(splat.radius_squared - dot(offset, offset), 0.0));
+    return max(half + min(half, splat.longest), 0.0);
 }
 
 @compute @workgroup_size(64)
@@ -38,12 +53,18 @@ fn find_ends(
     let splat = splat_of(index);
     let front = bitcast<u32>(nearness_of(splat.front));
     let back = bitcast<u32>(splat.back);
+    let across = view.size.x;
     for (var y = splat.box.min.y; y <= splat.box.max.y; y++) {
         for (var x = splat.box.min.x; x <= splat.box.max.x; x++) {
-            if ball_chord(splat.ball, pixel_ray(vec2f(f32(x), f32(y)) + 0.5)).length > 0.0 {
-                let texel = 2u * (u32(y) * view.size.x + u32(x));
-                atomicMax(&ends[texel], front);
-                atomicMax(&ends[texel + 1u], back);
+            if chord_at(splat, vec2i(x, y)) > 0.0 {
+                let texel = 2u * (u32(y) * across + u32(x));
+                // To CPU drivers looking costs less than an atomic operation, and few particles are at the ends.
+                if atomicLoad(&ends[texel]) < front {
+                    atomicMax(&ends[texel], front);
+                }
+                if atomicLoad(&ends[texel + 1u]) < back {
+                    atomicMax(&ends[texel + 1u], back);
+                }
             }
         }
     }
@@ -62,19 +83,21 @@ fn add_liquid(
     let splat = splat_of(index);
     let scale = settings.splat_scale;
     let counts_per_world = 6.0 / (3.14159265 * scale * scale * scale * settings.thickness_unit);
+    let across = view.size.x;
+    let far = view.far;
     for (var y = splat.box.min.y; y <= splat.box.max.y; y++) {
         for (var x = splat.box.min.x; x <= splat.box.max.x; x++) {
-            let chord = ball_chord(splat.ball, pixel_ray(vec2f(f32(x), f32(y)) + 0.5));
-            if chord.length <= 0.0 {
+            let chord = chord_at(splat, vec2i(x, y));
+            if chord <= 0.0 {
                 continue;
             }
-            let texel = u32(y) * view.size.x + u32(x);
-            let front = depth_of(bitcast<f32>(atomicLoad(&ends[2u * texel])));
+            let texel = u32(y) * across + u32(x);
+            let front = (1.0 - bitcast<f32>(atomicLoad(&ends[2u * texel]))) * far;
             let back = bitcast<f32>(atomicLoad(&ends[2u * texel + 1u]));
             let per_slice = f32(SHADOW_SLICES) / max(back - front, 1e-30);
             let low = clamp((splat.front - front) * per_slice, 0.0, f32(SHADOW_SLICES));
             let high = clamp((splat.back - front) * per_slice, low + 1e-4, f32(SHADOW_SLICES) + 1e-4);
-            let counts = min(chord.length * counts_per_world, 1048576.0) / (high - low);
+            let counts = min(chord * counts_per_world, 1048576.0) / (high - low);
             for (var slice = u32(low); slice <= min(u32(high), SHADOW_SLICES - 1u); slice++) {
                 let part = min(high, f32(slice + 1u)) - max(low, f32(slice));
                 let at = texel * SHADOW_SLICES + slice;

@@ -30,10 +30,11 @@ fn splat(
     let own = unpack_paint(paints[index], paint);
     atomicOr(&sums[paint.body_first], 1u << place.level);
     let first = level_start(place.level);
+    let rays = pixel_rays();
     for (var y = place.box.min.y; y <= place.box.max.y; y++) {
         for (var x = place.box.min.x; x <= place.box.max.x; x++) {
             let at = (vec2f(f32(x), f32(y)) + 0.5) * place.px;
-            let chord = ball_chord(ball, pixel_ray(at));
+            let chord = ball_chord(ball, ray_at(rays, at));
             if chord.length <= 0.0 {
                 continue;
             }

@@ -48,9 +48,10 @@ fn mark(
         return;
     }
     let box = texel_box(ball, 1.0, view.size);
+    let rays = pixel_rays();
     for (var y = box.min.y; y <= box.max.y; y++) {
         for (var x = box.min.x; x <= box.max.x; x++) {
-            let chord = ball_chord(ball, pixel_ray(vec2f(f32(x), f32(y)) + 0.5));
+            let chord = ball_chord(ball, ray_at(rays, vec2f(f32(x), f32(y)) + 0.5));
             let texel = u32(y) * view.size.x + u32(x);
             let near = fronts[texel];
             if chord.length <= 0.0 || near <= 0.0 {
@@ -87,9 +88,10 @@ fn split(
     }
     let counts_per_world = 1.0 / settings.thickness_unit;
     let box = texel_box(ball, 1.0, view.size);
+    let rays = pixel_rays();
     for (var y = box.min.y; y <= box.max.y; y++) {
         for (var x = box.min.x; x <= box.max.x; x++) {
-            let chord = ball_chord(ball, pixel_ray(vec2f(f32(x), f32(y)) + 0.5));
+            let chord = ball_chord(ball, ray_at(rays, vec2f(f32(x), f32(y)) + 0.5));
             let texel = u32(y) * view.size.x + u32(x);
             if chord.length <= 0.0 || fronts[texel] <= 0.0 {
                 continue;

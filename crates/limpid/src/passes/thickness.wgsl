@@ -37,10 +37,13 @@ fn splat(
     let first = level_start(place.level);
     let scale = settings.splat_scale;
     let counts_per_world = 6.0 / (3.14159265 * scale * scale * scale * settings.thickness_unit);
+    // All that is the same for the texels: ray_at's comment says why.
+    let rays = pixel_rays();
+    let in_scene = settings.has_scene_depth != 0u;
     for (var y = box.min.y; y <= box.max.y; y++) {
         for (var x = box.min.x; x <= box.max.x; x++) {
             let at = (vec2f(f32(x), f32(y)) + 0.5) * place.px;
-            let chord = ball_chord(ball, pixel_ray(at));
+            let chord = ball_chord(ball, ray_at(rays, at));
             if chord.length <= 0.0 {
                 continue;
             }
@@ -48,10 +51,7 @@ fn splat(
             let counts = u32(min(chord.length * counts_per_world, 1048576.0) + 0.5);
             // Liquid never overlaps an obstacle, only its drawn balls do: a chord counts whole where its middle is free.
             let middle = 0.5 * (chord.enter + chord.leave);
-            var range = vec2f(3.4e38);
-            if settings.has_scene_depth != 0u {
-                range = ranges[texel];
-            }
+            let range = select(vec2f(3.4e38), ranges[texel], in_scene);
             if middle < range.x {
                 if atomicLoad(&sums[texel]) < FULL {
                     atomicAdd(&sums[texel], counts);
