@@ -15,7 +15,7 @@ use crate::desk::{Command, Desk};
 use crate::fingers::Fingers;
 use crate::frames::Frames;
 use crate::held::Held;
-use crate::pace::{Grade, Pace};
+use crate::pace::{Grade, Pace, repaint};
 use crate::picture::Picture;
 use crate::playback::Playback;
 use crate::stand::Stand;
@@ -23,6 +23,7 @@ use crate::times::Times;
 use compare::Compared;
 use eframe::egui::{self, Ui};
 use eframe::egui_wgpu::RenderState;
+use limpid::Lanes;
 use limpid_headless::AdapterInfo;
 use limpid_shot::{Options, Pose};
 use std::path::PathBuf;
@@ -46,12 +47,15 @@ pub struct Start {
     pub screenshot: Option<PathBuf>,
     /// What the device is called, where its driver does not say.
     pub adapter: String,
+    /// How its work is cut up, where its driver does not say.
+    pub lanes: Option<Lanes>,
 }
 
 /// The application.
 pub struct Viewer {
     gpu: RenderState,
     adapter: String,
+    lanes: Option<Lanes>,
     book: Book,
     controls: Controls,
     desk: Desk,
@@ -72,7 +76,8 @@ pub struct Viewer {
     drawn: Option<Drawn>,
     pace: Pace,
     wants_picture: bool,
-    shows_panel: Option<bool>,
+    shows_panel: bool,
+    is_narrow: Option<bool>,
     times: Times,
     shows_times: bool,
     problems: Vec<String>,
@@ -106,7 +111,8 @@ impl Viewer {
         playback.shows_every = start.screenshot.is_some();
         Ok(Self {
             adapter,
-            picture: Picture::new(&gpu),
+            lanes: start.lanes,
+            picture: Picture::new(&gpu, start.lanes),
             book: Book::new(start.options),
             controls: Controls::new(),
             desk,
@@ -125,7 +131,8 @@ impl Viewer {
             drawn: None,
             pace: Pace::default(),
             wants_picture: false,
-            shows_panel: None,
+            shows_panel: true,
+            is_narrow: None,
             times: Times::default(),
             shows_times: false,
             problems: Vec::new(),
@@ -154,17 +161,13 @@ impl Viewer {
     }
 
     /// Goes on in the sequence.
-    fn play(&mut self, ctx: &egui::Context) {
+    fn play(&mut self) {
         let Some(frames) = &mut self.frames else { return };
         let (count, fps) = (frames.len(), self.book.options().fps());
         let awaited = self.playback.look(count, fps, |index| frames.ready(index).is_some() || frames.has_failed(index));
         frames.advance(awaited.unwrap_or(self.playback.index));
         let problems = std::mem::take(&mut frames.problems);
         let has_failed = frames.has_failed(self.playback.index);
-        // A picture on its way wakes the window when it is done: every repaint costs it time.
-        if self.playback.is_moving(count) && !self.pace.is_drawing(&self.gpu.device) {
-            ctx.request_repaint();
-        }
         for problem in problems {
             if has_failed { self.refuse(problem) } else { self.complain(problem) }
         }
@@ -177,7 +180,11 @@ impl Viewer {
         if is_held {
             return;
         }
-        if rests_in.is_zero() { self.book.settle() } else { ctx.request_repaint_after(rests_in) }
+        if rests_in.is_zero() {
+            self.book.settle();
+        } else if !self.pace.is_drawing() {
+            ctx.request_repaint_after(rests_in);
+        }
     }
 
     fn step(&mut self, by: isize) {
@@ -207,23 +214,34 @@ impl eframe::App for Viewer {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         crate::receive_dropped(ctx, &self.desk, dropped);
         self.keys(ctx);
-        self.play(ctx);
+        self.play();
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
         let width = ui.available_width();
-        let shows_panel = *self.shows_panel.get_or_insert(width >= NARROW);
-        egui::Panel::top("bar").show(ui, |ui| {
+        // Where there is no room for both any more the picture stays, and where there is again the settings come back.
+        let is_narrow = width < NARROW;
+        if self.is_narrow.replace(is_narrow) != Some(is_narrow) {
+            self.shows_panel = !is_narrow;
+        }
+        // The window is cleared to the panels' colour: they need not fill themselves, which CPU drivers feel.
+        let frame = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
+        egui::Panel::top("bar").frame(frame).show(ui, |ui| {
             ui.add_space(2.0);
             self.bar(ui);
             ui.add_space(1.0);
         });
-        egui::Panel::bottom("transport").show(ui, |ui| {
+        egui::Panel::bottom("transport").frame(frame).show(ui, |ui| {
             ui.add_space(2.0);
             self.transport(ui);
         });
-        if shows_panel {
-            let panel = egui::Panel::right("settings").default_size(330.0).max_size((width - 120.0).max(160.0));
+        if self.shows_panel {
+            let panel = egui::Panel::right("settings").frame(frame).default_size(330.0);
+            let panel = panel.max_size((width - 40.0).max(160.0));
             panel.show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     if let Err(problem) = self.controls.show(ui, &mut self.book) {
@@ -236,13 +254,11 @@ impl eframe::App for Viewer {
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.view(ui));
         self.settle(ui.ctx());
         self.report();
-        if self.wants_picture || self.frames.as_ref().is_some_and(Frames::is_reading) {
-            ui.ctx().request_repaint();
-        }
-        // Native devices say that they are done only when they are asked.
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.pace.is_drawing(&self.gpu.device) {
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(4));
+        // A picture on its way wakes the window when it is done: every repaint costs it time.
+        let is_waiting = self.playback.is_moving(self.frames.as_ref().map_or(0, Frames::len));
+        let is_reading = self.frames.as_ref().is_some_and(Frames::is_reading);
+        if self.wants_picture || is_reading || is_waiting && !self.pace.is_drawing() {
+            repaint(ui.ctx());
         }
         crate::show_address(&self.desk);
     }

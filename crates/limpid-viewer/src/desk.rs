@@ -38,6 +38,8 @@ pub struct Status {
     pub drawn: u64,
     /// How finely the picture is drawn that is shown; None: there is none.
     pub grade: Option<Grade>,
+    /// How long the last one that is done took, ms.
+    pub picture_ms: Option<f64>,
     /// Whether everything asked for is drawn.
     pub is_settled: bool,
     /// Particles in the frame.

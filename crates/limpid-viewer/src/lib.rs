@@ -18,6 +18,7 @@ mod playback;
 mod premultiply;
 mod save;
 mod stand;
+mod screen;
 mod times;
 
 #[cfg(target_arch = "wasm32")]

@@ -34,7 +34,7 @@ pub fn run(opening: Opening) -> Result<(), String> {
     let viewport = egui::ViewportBuilder::default().with_title("limpid").with_inner_size([1280.0, 800.0]);
     let wgpu_options = WgpuConfiguration { wgpu_setup: setup(options.adapter.clone()), ..Default::default() };
     let native = eframe::NativeOptions { viewport, wgpu_options, ..Default::default() };
-    let start = Start { options, has_size, plays, screenshot, adapter: String::new() };
+    let start = Start { options, has_size, plays, screenshot, adapter: String::new(), lanes: None };
     let desk = Desk::default();
     let of_viewer = desk.clone();
     let outcome = eframe::run_native(

@@ -1,6 +1,7 @@
 //! How finely to draw while the picture moves: as it will rest where the device is fast enough, else coarser.
 
 use eframe::egui;
+use eframe::egui_wgpu::RenderState;
 use limpid::Settings;
 use limpid_headless::Shot;
 use std::sync::{Arc, OnceLock};
@@ -18,6 +19,11 @@ const BEARABLE_MS: f64 = 150.0;
 const ROUGH_PIXELS: f64 = 4.0;
 /// How long nothing must change before the whole picture is drawn.
 const REST: Duration = Duration::from_millis(150);
+
+/// Asks for one repaint. Without a delay egui would make two of it.
+pub fn repaint(ctx: &egui::Context) {
+    ctx.request_repaint_after(Duration::from_millis(1));
+}
 
 /// How finely a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +61,7 @@ pub struct Pace {
     has_begun: [bool; 3],
     flight: Option<Flight>,
     has_finished: bool,
+    last_ms: Option<f64>,
     changed: Option<Instant>,
 }
 
@@ -82,6 +89,11 @@ impl Pace {
         self.has_finished
     }
 
+    /// How long the last picture took, from its commands to their end.
+    pub fn last_ms(&self) -> Option<f64> {
+        self.last_ms
+    }
+
     /// What is to be drawn has changed.
     pub fn change(&mut self) {
         self.changed = Some(Instant::now());
@@ -93,24 +105,27 @@ impl Pace {
     }
 
     /// Whether the last picture is still being drawn. More of them would only queue up.
-    pub fn is_drawing(&mut self, device: &wgpu::Device) -> bool {
+    pub fn is_drawing(&mut self) -> bool {
         let Some(flight) = &self.flight else { return false };
-        let _ = device.poll(wgpu::PollType::Poll);
         let Some(done) = flight.done.get() else { return true };
-        self.note(flight.grade, (*done - flight.begun).as_secs_f64() * 1000.0);
+        let ms = (*done - flight.begun).as_secs_f64() * 1000.0;
+        self.last_ms = Some(ms);
+        self.note(flight.grade, ms);
         self.flight = None;
         self.has_finished = true;
         false
     }
 
     /// A picture's commands have just gone to the device; wakes the window when it is done.
-    pub fn begin(&mut self, grade: Grade, begun: Instant, queue: &wgpu::Queue, ctx: &egui::Context) {
+    pub fn begin(&mut self, grade: Grade, begun: Instant, gpu: &RenderState, ctx: &egui::Context) {
         let done = Arc::new(OnceLock::new());
         let (of_callback, ctx) = (Arc::clone(&done), ctx.clone());
-        queue.on_submitted_work_done(move || {
+        gpu.queue.on_submitted_work_done(move || {
             let _ = of_callback.set(Instant::now());
-            ctx.request_repaint();
+            repaint(&ctx);
         });
+        #[cfg(not(target_arch = "wasm32"))]
+        ask_until_done(&gpu.device, &done);
         self.flight = Some(Flight { grade, begun, done });
     }
 
@@ -124,6 +139,21 @@ impl Pace {
                 self.ms[Grade::Draft as usize] = None;
             }
         }
+    }
+}
+
+/// Native devices say that they are done only when they are asked. Not by drawing the window again and again: on a CPU driver that
+/// would take the picture's own time.
+#[cfg(not(target_arch = "wasm32"))]
+fn ask_until_done(device: &wgpu::Device, done: &Arc<OnceLock<Instant>>) {
+    let (of_thread, done) = (device.clone(), Arc::clone(done));
+    let asks = move || {
+        while done.get().is_none() && of_thread.poll(wgpu::PollType::Poll).is_ok() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    };
+    if std::thread::Builder::new().spawn(asks).is_err() {
+        let _ = device.poll(wgpu::PollType::wait_indefinitely());
     }
 }
 

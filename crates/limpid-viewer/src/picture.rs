@@ -2,9 +2,10 @@
 
 use crate::pace::Grade;
 use crate::premultiply::{Premultiply, raw_view};
+use crate::screen::Screen;
 use eframe::egui::{self, TextureId};
 use eframe::egui_wgpu::{RenderState, wgpu};
-use limpid::{Body, Particles, PassTime, Profiler};
+use limpid::{Body, Lanes, Particles, PassTime, Profiler};
 use limpid_headless::{Aov, Background, Download, Painter, Peek, Shot, mean_of, sample_offset_px};
 use limpid_io::Frame;
 use limpid_shot::{Diffuse, Error, FrameParticles, Legend, Living, Options, Paints, Pose, Props, Stage, Survey};
@@ -15,8 +16,8 @@ pub struct Picture {
     painter: Painter,
     /// Made when first asked for.
     premultiply: Option<Premultiply>,
-    texture: Option<TextureId>,
-    /// What `texture` is of.
+    screen: Screen,
+    /// What is on it; 0: nothing.
     drawn_size: [u32; 2],
     is_transparent: bool,
     /// What was asked for; `drawn_size` may be less.
@@ -98,12 +99,16 @@ pub struct Wanted<'a> {
 }
 
 impl Picture {
-    /// Builds all pipelines.
-    pub fn new(gpu: &RenderState) -> Self {
+    /// Readies the passes; `lanes` where the device does not say itself what it is.
+    pub fn new(gpu: &RenderState, lanes: Option<Lanes>) -> Self {
+        let mut painter = Painter::new(&gpu.device, &gpu.queue);
+        if let Some(lanes) = lanes {
+            painter.renderer_mut().set_lanes(lanes);
+        }
         Self {
-            painter: Painter::new(&gpu.device, &gpu.queue),
+            painter,
             premultiply: None,
-            texture: None,
+            screen: Screen::new(gpu),
             drawn_size: [0; 2],
             is_transparent: false,
             whole_size: [0; 2],
@@ -236,27 +241,21 @@ impl Picture {
     }
 
     fn show(&mut self, gpu: &RenderState, size: [u32; 2], premultiplied: Option<wgpu::TextureView>) {
-        let of = (self.drawn_size, self.is_transparent);
-        let is_new = self.texture.is_none() || of != (size, premultiplied.is_some());
+        let is_new = (self.drawn_size, self.is_transparent) != (size, premultiplied.is_some());
         let Some(shown) = self.painter.shown().filter(|_| is_new) else { return };
         self.is_transparent = premultiplied.is_some();
-        let view = premultiplied.unwrap_or_else(|| raw_view(shown));
-        let mut renderer = gpu.renderer.write();
-        match self.texture {
-            Some(id) => {
-                renderer.update_egui_texture_from_wgpu_texture(&gpu.device, &view, wgpu::FilterMode::Linear, id);
-            }
-            None => {
-                self.texture = Some(renderer.register_native_texture(&gpu.device, &view, wgpu::FilterMode::Linear));
-            }
-        }
+        self.screen.show(&gpu.device, &premultiplied.unwrap_or_else(|| raw_view(shown)));
         self.drawn_size = size;
     }
 
     /// What to put into the window.
-    pub fn texture(&self, shows_buffer: bool) -> Option<TextureId> {
-        let buffer = self.shown_buffer.as_ref().filter(|_| shows_buffer);
-        buffer.map(egui::TextureHandle::id).or(self.texture)
+    pub fn screen(&self) -> &Screen {
+        &self.screen
+    }
+
+    /// The same in place of the picture, once a buffer is shown.
+    pub fn buffer(&self) -> Option<TextureId> {
+        self.shown_buffer.as_ref().map(egui::TextureHandle::id)
     }
 
     /// Takes the buffer to be shown when it has arrived; true if it is on its way or has just come.

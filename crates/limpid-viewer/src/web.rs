@@ -5,6 +5,7 @@ use crate::desk::{Command, Desk};
 use crate::frames::Source;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use limpid::Lanes;
 use limpid_headless::device_descriptor;
 use limpid_shot::Options;
 use std::path::PathBuf;
@@ -20,9 +21,9 @@ pub struct Handle {
     files: Vec<Source>,
 }
 
-/// Starts the viewer on a canvas; `adapter` is what it calls the device.
+/// Starts the viewer on a canvas; `adapter` is what it calls the device, `is_cpu` whether that is a CPU.
 #[wasm_bindgen]
-pub async fn start(canvas: web_sys::HtmlCanvasElement, adapter: String) -> Result<Handle, JsValue> {
+pub async fn start(canvas: web_sys::HtmlCanvasElement, adapter: String, is_cpu: bool) -> Result<Handle, JsValue> {
     let desk = Desk::default();
     let runner = eframe::WebRunner::new();
     let mut setup = WgpuSetupCreateNew::without_display_handle();
@@ -30,7 +31,14 @@ pub async fn start(canvas: web_sys::HtmlCanvasElement, adapter: String) -> Resul
     setup.device_descriptor = Arc::new(device_descriptor);
     let wgpu_options = WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() };
     let options = eframe::WebOptions { wgpu_options, ..Default::default() };
-    let start = Start { options: Options::defaults(), has_size: false, plays: false, screenshot: None, adapter };
+    let start = Start {
+        options: Options::defaults(),
+        has_size: false,
+        plays: false,
+        screenshot: None,
+        adapter,
+        lanes: Some(if is_cpu { Lanes::Few } else { Lanes::Many }),
+    };
     let (sender, context) = std::sync::mpsc::channel();
     let of_app = desk.clone();
     let create = move |creation: &eframe::CreationContext<'_>| {
@@ -136,6 +144,12 @@ impl Handle {
     #[wasm_bindgen(getter)]
     pub fn grade(&self) -> Option<String> {
         self.desk.status().grade.map(|grade| format!("{grade:?}").to_lowercase())
+    }
+
+    /// How long the last picture took that is done, ms.
+    #[wasm_bindgen(getter, js_name = pictureMs)]
+    pub fn picture_ms(&self) -> Option<f64> {
+        self.desk.status().picture_ms
     }
 
     /// Why the viewer has stopped, if it has; the window gets an event `limpid-failure` with it as its detail.

@@ -58,10 +58,7 @@ impl Viewer {
                 self.compare(compares);
             }
             ui.toggle_value(&mut self.shows_times, "Timings");
-            let mut shown = self.shows_panel.unwrap_or(true);
-            if ui.toggle_value(&mut shown, "Settings").on_hover_text("Tab").changed() {
-                self.shows_panel = Some(shown);
-            }
+            ui.toggle_value(&mut self.shows_panel, "Settings").on_hover_text("Tab");
             let is_dark = ui.visuals().dark_mode;
             if ui.button(if is_dark { "Light" } else { "Dark" }).on_hover_text("Theme").clicked() {
                 ui.ctx().set_theme(if is_dark { egui::Theme::Light } else { egui::Theme::Dark });

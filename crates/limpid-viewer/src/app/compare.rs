@@ -37,7 +37,7 @@ impl Viewer {
     pub(super) fn compare(&mut self, compares: bool) {
         self.compared = compares.then(|| Compared {
             options: self.book.options().clone(),
-            picture: Picture::new(&self.gpu),
+            picture: Picture::new(&self.gpu, self.lanes),
             drawn: None,
             split: 0.5,
         });
@@ -78,7 +78,11 @@ pub(super) fn paint(
     let uv = Rect::from_min_max(pos2(across.start, 0.0), pos2(across.end, 1.0));
     let at = |t: f32| egui::lerp(rect.x_range(), t);
     let part = Rect::from_x_y_ranges(at(across.start)..=at(across.end), rect.y_range());
-    for texture in picture.texture(shows_buffer).into_iter().chain(picture.legend(ctx)) {
+    let buffer = picture.buffer().filter(|_| shows_buffer);
+    if buffer.is_none() {
+        painter.with_clip_rect(part.intersect(painter.clip_rect())).add(picture.screen().shape(rect));
+    }
+    for texture in buffer.into_iter().chain(picture.legend(ctx)) {
         painter.image(texture, part, uv, Color32::WHITE);
     }
 }

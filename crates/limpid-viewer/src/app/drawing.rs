@@ -19,7 +19,7 @@ impl Viewer {
         if shown.is_none() {
             self.pace.change();
         }
-        if self.pace.is_drawing(&self.gpu.device) {
+        if self.pace.is_drawing() {
             return None;
         }
         let moving = if wanted.options.show.is_some() { Grade::Whole } else { self.pace.moving() };
@@ -130,7 +130,7 @@ impl Viewer {
         }
         problems.append(&mut self.picture.remarks);
         if has_drawn {
-            self.pace.begin(grade, begun, &self.gpu.queue, ctx);
+            self.pace.begin(grade, begun, &self.gpu, ctx);
         }
         if let Some(problem) = refused {
             self.refuse(problem);

@@ -32,7 +32,7 @@ impl Viewer {
             self.frame_all();
         }
         if pressed(Key::Tab) {
-            self.shows_panel = self.shows_panel.map(|shown| !shown);
+            self.shows_panel = !self.shows_panel;
         }
         if with(Key::Z, |modifiers| modifiers.command && !modifiers.shift) {
             self.book.undo();

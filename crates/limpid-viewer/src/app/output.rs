@@ -2,7 +2,7 @@
 
 use super::Viewer;
 use crate::frames::Frames;
-use crate::pace::Grade;
+use crate::pace::{Grade, repaint};
 use crate::{link, save};
 use eframe::egui;
 use limpid_headless::Background;
@@ -20,7 +20,7 @@ impl Viewer {
                     self.problems.push(problem);
                 }
                 if picture.is_receiving() {
-                    ctx.request_repaint();
+                    repaint(ctx);
                 }
             }
         }
@@ -70,7 +70,7 @@ impl Viewer {
     /// Tells the desk how things are.
     pub(super) fn report(&mut self) {
         let options = self.shot_options();
-        let is_drawing = self.pace.is_drawing(&self.gpu.device);
+        let is_drawing = self.pace.is_drawing();
         let frames = self.frames.as_ref();
         let is_settled = frames.is_some_and(|frames| frames.surveyed() == frames.len() && !frames.is_reading())
             && !self.picture.is_receiving()
@@ -83,6 +83,7 @@ impl Viewer {
         let mut status = self.desk.status();
         status.is_settled = is_settled;
         status.grade = self.drawn.as_ref().map(|drawn| drawn.grade);
+        status.picture_ms = self.pace.last_ms();
         status.frame = self.playback.index;
         status.frames = frames.map_or(0, Frames::len);
         status.particles = particles;
