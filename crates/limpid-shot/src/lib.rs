@@ -46,5 +46,5 @@ pub use phases::Phases;
 pub use props::Props;
 pub use reading::Reading;
 pub use size::Size;
-pub use survey::Survey;
+pub use survey::{Findings, Survey};
 pub use tint::{ColorScale, Tint};

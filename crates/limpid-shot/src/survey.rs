@@ -1,8 +1,11 @@
 //! What must be known of all frames before the first is drawn: camera, floor and radius are the same for all of them.
 
+mod findings;
+
 use crate::Error;
 use crate::number::{short, significant};
 use crate::options::Options;
+pub use findings::Findings;
 use glam::DVec3;
 use limpid::Bounds;
 use limpid_io::{ParticleSet, Radius, RadiusSource};

@@ -18,6 +18,8 @@ use crate::held::Held;
 use crate::pace::{Grade, Pace, repaint};
 use crate::picture::Picture;
 use crate::playback::Playback;
+#[cfg(target_arch = "wasm32")]
+use crate::read::ReadBeside;
 use crate::stand::Stand;
 use crate::times::Times;
 use compare::Compared;
@@ -49,6 +51,9 @@ pub struct Start {
     pub adapter: String,
     /// How its work is cut up, where its driver does not say.
     pub lanes: Option<Lanes>,
+    /// The page's way to read large files.
+    #[cfg(target_arch = "wasm32")]
+    pub read_beside: ReadBeside,
 }
 
 /// The application.
@@ -86,6 +91,8 @@ pub struct Viewer {
     linked: Option<Options>,
     /// Whether the picture that is wanted goes to [`Desk`].
     is_for_script: bool,
+    #[cfg(target_arch = "wasm32")]
+    read_beside: ReadBeside,
 }
 
 /// What a picture was drawn of.
@@ -140,6 +147,8 @@ impl Viewer {
             screenshot: start.screenshot,
             linked: None,
             is_for_script: false,
+            #[cfg(target_arch = "wasm32")]
+            read_beside: start.read_beside,
             gpu,
         })
     }

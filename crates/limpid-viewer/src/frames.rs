@@ -1,7 +1,8 @@
 //! The frames of a sequence: read one by one beside the drawing, kept as long as there is room.
 
+use crate::read::{Loaded, Reader};
 use limpid_io::{Frame, ParticleSet};
-use limpid_shot::{Options, Reading, Survey};
+use limpid_shot::Survey;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -72,12 +73,6 @@ struct Entry {
     is_surveyed: bool,
 }
 
-/// What reading a file gives.
-struct Loaded {
-    index: usize,
-    outcome: Result<(Arc<ParticleSet>, Option<Survey>), String>,
-}
-
 /// A sequence of frames.
 pub struct Frames {
     entries: Vec<Entry>,
@@ -91,14 +86,14 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// Files in the order of their numbers, read in one way; `wake` is called when one has been read.
-    pub fn new(files: Vec<(Frame, Source)>, reading: Reading, wake: impl Fn() + Send + 'static) -> Self {
+    /// Files in the order of their numbers.
+    pub fn new(files: Vec<(Frame, Source)>, reader: Reader) -> Self {
         let entry = |(frame, source)| Entry { frame, source, state: State::Absent, is_surveyed: false };
         Self {
             entries: files.into_iter().map(entry).collect(),
             survey: Survey::default(),
             version: 0,
-            reader: Reader::new(reading, wake),
+            reader,
             busy: None,
             problems: Vec::new(),
         }
@@ -211,85 +206,6 @@ impl Frames {
                 self.entries[index].state = State::Absent;
             }
         }
-    }
-}
-
-/// Reads a file and what the survey needs of it.
-fn read(index: usize, source: &Source, is_new: bool, reading: &Reading) -> Loaded {
-    let set = match source {
-        Source::Path(path) => reading.file(path),
-        Source::Bytes(path, bytes) => reading.bytes(path, Arc::clone(bytes)),
-    };
-    let outcome = set.map_err(|error| error.to_string()).map(|set| {
-        let set = Arc::new(set);
-        let survey = is_new.then(|| {
-            let mut survey = Survey::of(&set, &Options::default());
-            // No radius is no fault of this frame alone: it is asked for again where it is needed.
-            let _ = survey.settle(&Options::default());
-            survey
-        });
-        (set, survey)
-    });
-    Loaded { index, outcome }
-}
-
-/// A thread that reads.
-#[cfg(not(target_arch = "wasm32"))]
-struct Reader {
-    ask: std::sync::mpsc::Sender<(usize, Source, bool)>,
-    answers: std::sync::mpsc::Receiver<Loaded>,
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-impl Reader {
-    fn new(reading: Reading, wake: impl Fn() + Send + 'static) -> Self {
-        let (ask, questions) = std::sync::mpsc::channel::<(usize, Source, bool)>();
-        let (answer, answers) = std::sync::mpsc::channel();
-        // Ends when either side of the channels does.
-        std::thread::spawn(move || {
-            for (index, source, is_new) in questions {
-                if answer.send(read(index, &source, is_new, &reading)).is_err() {
-                    return;
-                }
-                wake();
-            }
-        });
-        Self { ask, answers }
-    }
-
-    fn ask(&mut self, index: usize, source: Source, is_new: bool) {
-        // The thread lives as long as this does.
-        let _ = self.ask.send((index, source, is_new));
-    }
-
-    fn take(&mut self) -> Option<Loaded> {
-        self.answers.try_recv().ok()
-    }
-}
-
-/// Browsers have one thread: a file is read between two pictures.
-#[cfg(target_arch = "wasm32")]
-struct Reader {
-    reading: Reading,
-    wake: Box<dyn Fn()>,
-    asked: Option<(usize, Source, bool)>,
-}
-
-#[cfg(target_arch = "wasm32")]
-impl Reader {
-    fn new(reading: Reading, wake: impl Fn() + Send + 'static) -> Self {
-        Self { reading, wake: Box::new(wake), asked: None }
-    }
-
-    fn ask(&mut self, index: usize, source: Source, is_new: bool) {
-        self.asked = Some((index, source, is_new));
-        (self.wake)();
-    }
-
-    fn take(&mut self) -> Option<Loaded> {
-        let (index, source, is_new) = self.asked.take()?;
-        (self.wake)();
-        Some(read(index, &source, is_new, &self.reading))
     }
 }
 

@@ -16,9 +16,10 @@ mod pace;
 mod picture;
 mod playback;
 mod premultiply;
+mod read;
 mod save;
-mod stand;
 mod screen;
+mod stand;
 mod times;
 
 #[cfg(target_arch = "wasm32")]

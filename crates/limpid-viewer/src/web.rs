@@ -3,6 +3,7 @@
 use crate::app::{Start, Viewer};
 use crate::desk::{Command, Desk};
 use crate::frames::Source;
+use crate::read::ReadBeside;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use limpid::Lanes;
@@ -21,9 +22,15 @@ pub struct Handle {
     files: Vec<Source>,
 }
 
-/// Starts the viewer on a canvas; `adapter` is what it calls the device, `is_cpu` whether that is a CPU.
+/// Starts the viewer on a canvas; `adapter` is what it calls the device, `is_cpu` whether that is a CPU. `read_beside` has large files
+/// read in a worker (`reader.js`).
 #[wasm_bindgen]
-pub async fn start(canvas: web_sys::HtmlCanvasElement, adapter: String, is_cpu: bool) -> Result<Handle, JsValue> {
+pub async fn start(
+    canvas: web_sys::HtmlCanvasElement,
+    adapter: String,
+    is_cpu: bool,
+    read_beside: ReadBeside,
+) -> Result<Handle, JsValue> {
     let desk = Desk::default();
     let runner = eframe::WebRunner::new();
     let mut setup = WgpuSetupCreateNew::without_display_handle();
@@ -38,6 +45,7 @@ pub async fn start(canvas: web_sys::HtmlCanvasElement, adapter: String, is_cpu: 
         screenshot: None,
         adapter,
         lanes: Some(if is_cpu { Lanes::Few } else { Lanes::Many }),
+        read_beside,
     };
     let (sender, context) = std::sync::mpsc::channel();
     let of_app = desk.clone();

@@ -11,8 +11,9 @@ use wasm_bindgen_cli_support::Bindgen;
 const LIMIT: usize = 3_000_000;
 
 /// What the page consists of beside the program; the data are the simulation that it starts with.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     ("web/index.html", "index.html"),
+    ("web/reader.js", "reader.js"),
     ("web/example.html", "example.html"),
     ("data/dam_break_double/ParticleData_Fluid_1.bgeo", "data/dam_break_1.bgeo"),
     ("data/dam_break_double/ParticleData_Fluid_20.bgeo", "data/dam_break_20.bgeo"),

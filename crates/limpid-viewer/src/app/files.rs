@@ -4,6 +4,7 @@ use super::Viewer;
 use crate::desk::Command;
 use crate::frames::{self, Frames, Kind, Source};
 use crate::link;
+use crate::read::Reader;
 use eframe::egui;
 use limpid_shot::{Options, Reading, config};
 use toml::Value;
@@ -25,7 +26,12 @@ impl Viewer {
             Ok(warnings) => problems.extend(warnings),
             Err(error) => problems.push(error.to_string()),
         }
-        self.frames = Some(Frames::new(files, reading, move || ctx.request_repaint()));
+        let wake = move || ctx.request_repaint();
+        #[cfg(not(target_arch = "wasm32"))]
+        let reader = Reader::new(reading, wake);
+        #[cfg(target_arch = "wasm32")]
+        let reader = Reader::new(reading, options, self.read_beside.clone(), wake);
+        self.frames = Some(Frames::new(files, reader));
         self.generation += 1;
         self.playback.rewind();
         self.problems = problems;

@@ -22,6 +22,14 @@ fn ten_million_particles_are_drawn_or_refused() {
     let page = &mut Chromium::open(&server.address("?example=none"), true);
     page.wait("window.viewer");
     drop_the_dam(page);
+    // In how many of its frames the page says that it is reading: a page that reads by itself has one or two.
+    page.run(
+        "window.reading = 0;
+        requestAnimationFrame(function count() {
+            if (viewer.particles === 0) window.reading += 1;
+            requestAnimationFrame(count);
+        })",
+    );
     page.drop(&[(
         "huge.pos",
         "(() => {
@@ -37,6 +45,9 @@ fn ten_million_particles_are_drawn_or_refused() {
         })()",
     )]);
     page.wait("viewer.problems.length > 0 || viewer.particles === 10077696 && viewer.isSettled");
+    let reading = page.number("window.reading");
+    assert!(reading >= 5.0, "{reading} frames");
+    println!("{reading} frames meanwhile");
     println!("10 million particles: {}", page.text("viewer.problems.join() || 'drawn'"));
     assert_eq!(
         page.run("viewer.problems.every((line) => line.includes('huge.pos') || line.includes('particles'))"),
