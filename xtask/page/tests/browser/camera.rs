@@ -27,6 +27,15 @@ pub fn the_camera_goes_by_mouse_and_keys(page: &mut Chromium) {
     page.wait("viewer.isSettled");
     assert!(distance(camera(page, "eye"), eye) > 0.3);
     assert!((from_target(page) - far).abs() < 1e-6 && distance(camera(page, "target"), target) < 1e-6);
+    // The wheel: nearer. The right button: the target moves, as far away as before.
+    page.wheel(MIDDLE, -120.0);
+    page.wait("viewer.isSettled");
+    let near = from_target(page);
+    assert!(near < 0.9 * far && distance(camera(page, "target"), target) < 1e-6, "{near} of {far}");
+    page.drag_by("right", MIDDLE, (MIDDLE.0 + 60.0, MIDDLE.1));
+    page.wait("viewer.isSettled");
+    assert!(distance(camera(page, "target"), target) > 0.1 && (from_target(page) - near).abs() < 1e-6);
+    let far = near;
     // Flown: both go on.
     let eye = camera(page, "eye");
     page.key("w", 0, 400);

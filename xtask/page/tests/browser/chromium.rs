@@ -52,6 +52,7 @@ pub struct Chromium {
     socket: WebSocket<TcpStream>,
     messages: u64,
     is_pressed: bool,
+    button: &'static str,
     errors: Vec<String>,
 }
 
@@ -88,7 +89,8 @@ impl Chromium {
         std::thread::spawn(move || log.read_to_end(&mut Vec::new()));
         let port: u16 = line.split("ws://").nth(1).unwrap().split(['/', ':']).nth(1).unwrap().parse().unwrap();
         let socket = connect(port);
-        let mut page = Self { process, profile, socket, messages: 0, is_pressed: false, errors: Vec::new() };
+        let mut page =
+            Self { process, profile, socket, messages: 0, is_pressed: false, button: "left", errors: Vec::new() };
         for domain in ["Runtime.enable", "Log.enable", "Page.enable"] {
             page.call(domain, json!({}));
         }
@@ -247,12 +249,28 @@ impl Chromium {
 
     /// A click, or what is dragged from one place to another.
     pub fn drag(&mut self, from: (f64, f64), to: (f64, f64)) {
+        self.drag_by("left", from, to);
+    }
+
+    /// The same by another button.
+    pub fn drag_by(&mut self, button: &'static str, from: (f64, f64), to: (f64, f64)) {
+        self.button = button;
         let half = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
         for (kind, at) in [("Moved", from), ("Pressed", from), ("Moved", half), ("Moved", to), ("Released", to)] {
             self.mouse(kind, at);
             // A window takes one step a picture.
             self.pause(60);
         }
+        self.button = "left";
+    }
+
+    /// The wheel turned by so many points, above 0 away from what is looked at.
+    pub fn wheel(&mut self, (x, y): (f64, f64), points: f64) {
+        self.mouse("Moved", (x, y));
+        self.pause(60);
+        let event = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": points });
+        self.call("Input.dispatchMouseEvent", event);
+        self.pause(300);
     }
 
     pub fn click(&mut self, at: (f64, f64)) {
@@ -266,8 +284,14 @@ impl Chromium {
 
     pub fn mouse(&mut self, kind: &str, (x, y): (f64, f64)) {
         self.is_pressed = kind == "Pressed" || kind == "Moved" && self.is_pressed;
-        let button = if kind == "Moved" && !self.is_pressed { "none" } else { "left" };
-        let buttons = u8::from(self.is_pressed);
+        let button = if kind == "Moved" && !self.is_pressed { "none" } else { self.button };
+        let buttons = if !self.is_pressed {
+            0
+        } else if self.button == "left" {
+            1
+        } else {
+            2
+        };
         let kind = format!("mouse{kind}");
         let event = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
         self.call("Input.dispatchMouseEvent", event);

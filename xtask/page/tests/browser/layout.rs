@@ -6,6 +6,8 @@ pub const ROOM_WIDTH: f64 = 689.0;
 pub const MIDDLE: (f64, f64) = (340.0, 400.0);
 /// The timeline's ends.
 pub const TIMELINE: [(f64, f64); 2] = [(234.0, 733.0), (925.0, 733.0)];
+/// The slider of the drawn radius: where its handle is by default, and farther right.
+pub const SPLAT_SCALE: [(f64, f64); 2] = [(878.0, 116.0), (910.0, 116.0)];
 /// Menu and its entries.
 pub const SAVE: (f64, f64) = (93.0, 15.0);
 pub const SAVE_PICTURE: (f64, f64) = (110.0, 42.0);

@@ -40,6 +40,7 @@ fn the_page_draws_what_the_program_draws_and_does_what_its_users_do() {
     picture::every_kind_is_that_of_the_program(&mut page);
     restore(&mut page);
     settings::settings_change_the_picture(&mut page);
+    settings::a_slider_changes_the_picture(&mut page);
     settings::settings_survive_an_address_and_a_file(&mut page);
     menus::what_is_shown_can_be_saved(&mut page);
     menus::steps_can_be_taken_back_and_again(&mut page);

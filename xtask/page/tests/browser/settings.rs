@@ -1,6 +1,8 @@
 //! Settings by scripts, address and file.
 
 use crate::chromium::Chromium;
+use crate::layout::SPLAT_SCALE;
+use crate::restore;
 
 pub fn settings_change_the_picture(page: &mut Chromium) {
     let before = page.picture();
@@ -9,6 +11,19 @@ pub fn settings_change_the_picture(page: &mut Chromium) {
     let after = page.picture();
     let changed = before.pixels().zip(after.pixels()).filter(|(a, b)| a != b).count();
     assert!(changed > 2000, "{changed} pixels changed");
+}
+
+/// A slider dragged by the mouse: one step to take back.
+pub fn a_slider_changes_the_picture(page: &mut Chromium) {
+    restore(page);
+    let before = page.picture();
+    page.drag(SPLAT_SCALE[0], SPLAT_SCALE[1]);
+    page.wait("viewer.isSettled && Number(viewer.toml().match(/^splat-scale = (.*)/m)[1]) > 1.6");
+    let changed = before.pixels().zip(page.picture().pixels()).filter(|(a, b)| a != b).count();
+    assert!(changed > 2000, "{changed} pixels changed");
+    page.key("z", 2, 30);
+    page.wait("viewer.isSettled && Number(viewer.toml().match(/^splat-scale = (.*)/m)[1]) === 1.5");
+    assert!(page.picture() == before);
 }
 
 pub fn settings_survive_an_address_and_a_file(page: &mut Chromium) {
