@@ -3,6 +3,8 @@
 
 mod value;
 
+use std::io::BufReader;
+
 use crate::error::{Fault, broken};
 use crate::input::Input;
 use crate::names;
@@ -15,7 +17,8 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     if input.head().starts_with(BYTE_ORDER_MARK) {
         input.skip(BYTE_ORDER_MARK.len() as u64)?;
     }
-    let value: Value = serde_json::from_reader(input)?;
+    // It takes byte by byte.
+    let value: Value = serde_json::from_reader(BufReader::new(input))?;
     match particles(value) {
         Ok(raw) => Ok(raw),
         Err(Some(odd)) => broken!("{odd}"),

@@ -72,8 +72,12 @@ pub(crate) fn read_array(input: &mut Input) -> Result<Array, Fault> {
     let header = String::from_utf8_lossy(&header).into_owned();
 
     let shape = shape(&header)?;
-    let Shape::Rows(rows, columns) = shape else { return Ok(Array { shape, values: Values::U8(Vec::new()) }) };
     let descr = entry(&header, "descr")?;
+    let Shape::Rows(rows, columns) = shape else {
+        // What is no array holds others perhaps: an object of Python.
+        let shape = if descr.starts_with("'|O'") { Shape::NoNumbers("object".into()) } else { shape };
+        return Ok(Array { shape, values: Values::U8(Vec::new()) });
+    };
     if let (Some(records), 1) = (Records::parse(descr), columns) {
         let shape = Shape::Records(records.read(input, rows)?);
         return Ok(Array { shape, values: Values::U8(Vec::new()) });

@@ -18,8 +18,8 @@ const MOST_ARRAYS: usize = 4096;
 
 enum Entry {
     Arrays(Vec<Attribute>),
-    /// An array of something else, of this name.
-    NoNumbers(String),
+    /// An array of something else: its name and type.
+    NoNumbers(String, String),
     /// What is of no interest.
     Other,
 }
@@ -36,30 +36,30 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     let entries = (0..archive.len()).collect();
     let read = |index| Entry::read(&mut archive.clone(), index, length);
     let mut attributes = Vec::new();
-    let mut objects = Vec::new();
+    let mut others = Vec::new();
     for entry in parallel::map(entries, read) {
         match entry? {
             Entry::Arrays(arrays) => attributes.extend(arrays),
-            Entry::NoNumbers(name) => objects.push(name),
+            Entry::NoNumbers(name, kind) => others.push((name, kind)),
             Entry::Other => {}
         }
     }
     let Some(positions) = names::take_positions(&mut attributes) else {
-        return Err(without_positions(&objects));
+        return Err(without_positions(&others));
     };
     attributes.retain(|attribute| attribute.values.len() == positions.len() * attribute.components);
     names::join_components(&mut attributes);
-    let warning = |name: String| format!("array {} holds no numbers: left out", quote(name.as_bytes()));
-    let warnings = objects.into_iter().map(warning).collect();
+    let warning = |(name, _): &(String, String)| format!("array {} holds no numbers: left out", quote(name.as_bytes()));
+    let warnings = others.iter().map(warning).collect();
     Ok(Raw { attributes, warnings, ..Raw::new(positions) })
 }
 
 /// Programs such as PySPH save Python's own objects, which Python alone reads.
-fn without_positions(objects: &[String]) -> Fault {
-    match objects.first() {
-        Some(name) => Fault::Unsupported {
-            what: format!("array {}, an object of Python or a text,", quote(name.as_bytes())),
-            remedy: "load it in Python and save its numbers: numpy.savez('frame.npz', x=x, y=y, z=z)",
+fn without_positions(others: &[(String, String)]) -> Fault {
+    match others.first() {
+        Some((name, kind)) => Fault::Unsupported {
+            what: format!("array {} of the type {}", quote(name.as_bytes()), quote(kind.as_bytes())),
+            remedy: "load it in Python and save its numbers: numpy.savez('frame.npz', positions=p.astype('f4'))",
         },
         None => Fault::Broken("it has no array of positions, and no x, y and z of one length".into()),
     }
@@ -92,7 +92,7 @@ impl Entry {
             }
             Shape::Records(attributes) => Self::Arrays(attributes),
             // Pickled objects and texts stand beside arrays of numbers.
-            Shape::NoNumbers(_) => Self::NoNumbers(name),
+            Shape::NoNumbers(kind) => Self::NoNumbers(name, kind),
             _ => Self::Other,
         })
     }

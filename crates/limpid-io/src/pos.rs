@@ -2,7 +2,7 @@
 
 use crate::error::{Fault, broken};
 use crate::input::Input;
-use crate::raw::{Positions, Raw};
+use crate::raw::Raw;
 use crate::values::{Encoding, Scalar};
 
 const HEADER: u64 = 8;
@@ -23,7 +23,7 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     if input.is_exact() && size != HEADER + POINT * count {
         return broken!("{count} particles take {} bytes, but it has {size}", HEADER + POINT * count);
     }
-    let positions = Positions::from_triples(input.values(Scalar::F32, Encoding::Little, 3 * count)?);
+    let positions = input.positions(Scalar::F32, Encoding::Little, count)?;
     if !input.at_end()? {
         return broken!("bytes follow its {count} particles");
     }

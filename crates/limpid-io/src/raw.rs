@@ -26,6 +26,8 @@ pub(crate) struct Raw {
 
 pub(crate) enum Positions {
     F32(Vec<[f32; 3]>),
+    /// The same, all known to be finite.
+    Finite(Vec<[f32; 3]>),
     F64(Vec<[f64; 3]>),
 }
 
@@ -36,8 +38,9 @@ impl Raw {
 
     pub fn finish(self, path: &Path, format: Format) -> Result<ParticleSet, ReadError> {
         let Self { positions, mut attributes, file_radius, mut warnings } = self;
+        let are_finite = matches!(positions, Positions::Finite(_));
         let (origin, positions) = positions.into_f32();
-        if !all_finite(positions.as_flattened()) {
+        if !are_finite && !all_finite_of_many(positions.as_flattened()) {
             let bad = |position: &[f32; 3]| !all_finite(position);
             let first = positions.iter().position(bad).unwrap_or_default();
             let count = positions[first..].iter().filter(|position| bad(position)).count();
@@ -54,7 +57,7 @@ impl Raw {
 impl Positions {
     pub fn len(&self) -> usize {
         match self {
-            Self::F32(positions) => positions.len(),
+            Self::F32(positions) | Self::Finite(positions) => positions.len(),
             Self::F64(positions) => positions.len(),
         }
     }
@@ -78,9 +81,17 @@ impl Positions {
         }
     }
 
+    /// The same, whose numbers have been looked at.
+    pub fn checked(self, are_finite: bool) -> Self {
+        match self {
+            Self::F32(positions) if are_finite => Self::Finite(positions),
+            others => others,
+        }
+    }
+
     fn into_f32(self) -> ([f64; 3], Vec<[f32; 3]>) {
         match self {
-            Self::F32(positions) => ([0.0; 3], positions),
+            Self::F32(positions) | Self::Finite(positions) => ([0.0; 3], positions),
             Self::F64(positions) => {
                 let origin = origin_for(&positions);
                 let moved = |p: &[f64; 3]| [0, 1, 2].map(|axis| (p[axis] - origin[axis]) as f32);
@@ -104,11 +115,13 @@ pub(crate) fn zip<T: Copy>(x: &[T], y: &[T], z: &[T]) -> Vec<[T; 3]> {
 }
 
 /// In pieces without a way out, which processors take several numbers at a time of.
-fn all_finite(numbers: &[f32]) -> bool {
-    let is_finite =
-        |numbers: &[f32]| numbers.chunks(1024).all(|piece| piece.iter().fold(true, |all, x| all & x.is_finite()));
+pub(crate) fn all_finite(numbers: &[f32]) -> bool {
+    numbers.chunks(1024).all(|piece| piece.iter().fold(true, |all, x| all & x.is_finite()))
+}
+
+fn all_finite_of_many(numbers: &[f32]) -> bool {
     let share = numbers.len().div_ceil(parallel::threads()).max(LEAST_SHARE);
-    parallel::map(numbers.chunks(share).collect(), is_finite).into_iter().all(|all| all)
+    parallel::map(numbers.chunks(share).collect(), all_finite).into_iter().all(|all| all)
 }
 
 fn into_f64(values: Values) -> Vec<f64> {

@@ -4,11 +4,13 @@ mod slots;
 
 use std::borrow::Cow;
 use std::io::Read;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use bytemuck::Pod;
 
 use crate::error::{Fault, broken};
 use crate::input::{self, Input, parse};
+use crate::raw::{self, Positions};
 
 pub(crate) use slots::Slot;
 
@@ -148,6 +150,13 @@ pub(crate) enum Encoding {
     Big,
 }
 
+impl Encoding {
+    /// Whether binary numbers have their bytes in the order that is not this machine's.
+    pub fn swaps(self) -> bool {
+        (self == Self::Big) != cfg!(target_endian = "big")
+    }
+}
+
 impl Scalar {
     pub fn size(self) -> usize {
         match self {
@@ -206,13 +215,22 @@ impl Input<'_> {
             let mut columns = self.columns(&[scalar], count)?;
             return Ok(columns.swap_remove(0));
         }
-        let swaps = (encoding == Encoding::Big) != cfg!(target_endian = "big");
+        let swaps = encoding.swaps();
+        macro_rules! array {
+            ($number:ty) => {
+                self.array(count, |piece: &mut [$number]| {
+                    if swaps {
+                        piece.iter_mut().for_each(|x| *x = <$number>::from_be_bytes(x.to_le_bytes()));
+                    }
+                })?
+            };
+        }
         Ok(match scalar {
-            Scalar::U8 => Values::U8(self.array(count, false, |x| x)?),
-            Scalar::I32 => Values::I32(self.array(count, swaps, i32::swap_bytes)?),
-            Scalar::I64 | Scalar::U64 => Values::I64(self.array(count, swaps, i64::swap_bytes)?),
-            Scalar::F32 => Values::F32(self.array(count, swaps, |x: f32| f32::from_bits(x.to_bits().swap_bytes()))?),
-            Scalar::F64 => Values::F64(self.array(count, swaps, |x: f64| f64::from_bits(x.to_bits().swap_bytes()))?),
+            Scalar::U8 => Values::U8(array!(u8)),
+            Scalar::I32 => Values::I32(array!(i32)),
+            Scalar::I64 | Scalar::U64 => Values::I64(array!(i64)),
+            Scalar::F32 => Values::F32(array!(f32)),
+            Scalar::F64 => Values::F64(array!(f64)),
             Scalar::I8 | Scalar::I16 | Scalar::U16 | Scalar::U32 => {
                 let slot = Slot { scalar, components: 1, offset: 0 };
                 self.records(count, scalar.size(), &[slot], encoding)?.swap_remove(0)
@@ -220,15 +238,34 @@ impl Input<'_> {
         })
     }
 
-    /// Numbers whose type is that of the file, but for the order of their bytes: read to where they stay.
-    fn array<T: Pod + Send>(&mut self, count: u64, swaps: bool, swap: impl Fn(T) -> T + Sync) -> Result<Vec<T>, Fault> {
+    /// An array of x, y and z of `count` particles.
+    pub fn positions(&mut self, scalar: Scalar, encoding: Encoding, count: u64) -> Result<Positions, Fault> {
+        let Some(numbers) = count.checked_mul(3) else { return broken!("it claims {count} times 3 numbers") };
+        if scalar != Scalar::F32 || encoding == Encoding::Ascii {
+            return Ok(Positions::from_triples(self.values(scalar, encoding, numbers)?));
+        }
+        let swaps = encoding.swaps();
+        // Looked at while they are near, which saves a way through memory.
+        let are_finite = AtomicBool::new(true);
+        let numbers = self.array(numbers, |piece: &mut [f32]| {
+            if swaps {
+                piece.iter_mut().for_each(|x| *x = f32::from_be_bytes(x.to_le_bytes()));
+            }
+            if !raw::all_finite(piece) {
+                are_finite.store(false, Ordering::Relaxed);
+            }
+        })?;
+        Ok(Positions::from_triples(Values::F32(numbers)).checked(are_finite.into_inner()))
+    }
+
+    /// Numbers whose type is that of the file, but for the order of their bytes: read to where they stay, and each piece handed to
+    /// `finish` while it is near.
+    fn array<T: Pod + Send>(&mut self, count: u64, finish: impl Fn(&mut [T]) + Sync) -> Result<Vec<T>, Fault> {
         let known = self.claim(count, size_of::<T>())?;
         let read = |from: &mut dyn Read, numbers: &mut [T]| {
             for piece in numbers.chunks_mut(PIECE / size_of::<T>()) {
                 from.read_exact(bytemuck::cast_slice_mut(piece))?;
-                if swaps {
-                    piece.iter_mut().for_each(|x| *x = swap(*x));
-                }
+                finish(piece);
             }
             Ok(())
         };

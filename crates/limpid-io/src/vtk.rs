@@ -153,8 +153,7 @@ impl Reader<'_, '_> {
             return broken!("it has POINTS twice");
         }
         let Type::Number(scalar) = kind else { return broken!("its POINTS are not numbers") };
-        let values = self.input.values(scalar, self.encoding, times(count, 3)?)?;
-        self.positions = Some(Positions::from_triples(values));
+        self.positions = Some(self.input.positions(scalar, self.encoding, count)?);
         Ok(())
     }
 

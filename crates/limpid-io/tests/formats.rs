@@ -316,3 +316,18 @@ fn one_particle() {
     assert_eq!(set.bounds().unwrap().min, [1.0, 2.0, 3.0]);
     assert_eq!(set.radius(None).unwrap().value, 0.25);
 }
+
+#[test]
+fn pythons_own_objects_are_named() {
+    use std::io::Write;
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (name, kind, shape) in [("version", "<i8", "()"), ("particles", "|O", "()")] {
+        archive.start_file(format!("{name}.npy"), zip::write::SimpleFileOptions::default()).unwrap();
+        let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+        let length = (header.len() as u16).to_le_bytes();
+        archive.write_all(&[&b"\x93NUMPY\x01\0"[..], &length, header.as_bytes(), &[0; 8]].concat()).unwrap();
+    }
+    let error =
+        Folder::new("objects").read("dump.npz", archive.finish().unwrap().into_inner()).unwrap_err().to_string();
+    assert!(error.contains("array \"particles\" of the type \"object\" cannot be read; load it in Python"), "{error}");
+}

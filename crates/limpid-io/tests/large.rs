@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 use common::{Folder, bgeo, bgeo_attribute, gzip, npy, pos};
-use limpid_io::{ParticleSet, Values};
+use limpid_io::{ParticleSet, ReadError, Values};
 
 /// Several parts' worth, and no multiple of anything.
 const COUNT: usize = 250_007;
@@ -72,6 +72,11 @@ fn arrays() {
     let points = points();
     assert_whole("pos", &folder.read("a.pos", pos(0.5, &points)).unwrap());
     assert_whole("npy", &folder.read("a.npy", npy("<f4", false, COUNT, &little(&points))).unwrap());
+
+    let mut bad = points.clone();
+    bad[COUNT - 5][1] = f32::NAN;
+    let error = folder.read("nan.pos", pos(0.5, &bad)).unwrap_err();
+    assert!(matches!(error, ReadError::NotFinite { count: 1, first, .. } if first == COUNT - 5), "{error}");
 
     // Cells that are passed over lie between the arrays.
     let head = "# vtk DataFile Version 3.0\n\nBINARY\nDATASET POLYDATA\n";

@@ -84,9 +84,8 @@ impl Layout {
         scalar: Scalar,
         count: u64,
     ) -> Option<Values> {
-        let is_native = (self.encoding == Encoding::Big) == cfg!(target_endian = "big");
         let writing = Writing { compressor: self.compressor, is_base64 };
-        if is_native { in_place::read(input, writing, sizes, scalar, count) } else { None }
+        if self.encoding.swaps() { None } else { in_place::read(input, writing, sizes, scalar, count) }
     }
 
     /// The bytes that the header of an array says it has, where it is not packed.
