@@ -9,25 +9,30 @@ use glam::{DVec3, dvec3};
 use limpid::{Settings, View};
 use wgpu::TextureFormat;
 
-/// View depth of a pixel of a reversed, infinite depth target.
-fn view_depth(near: f64, depth: f32) -> f64 {
-    near / f64::from(depth)
+/// An orthographic view.
+fn from_above() -> View {
+    let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+    View::orthographic(dvec3(0.0, 6.0, 0.0), DVec3::ZERO, DVec3::NEG_Z, 3.0, aspect, 0.1, 12.0)
 }
 
-/// The world position seen through a pixel at a view depth.
-fn place(view: &View, index: usize, depth: f64) -> DVec3 {
+/// The world position that a pixel of a reversed depth target shows.
+fn place(view: &View, index: usize, depth: f32) -> DVec3 {
     let [x, y] = [index % SIZE[0] as usize, index / SIZE[0] as usize].map(|v| v as f64 + 0.5);
-    let ndc = dvec3(2.0 * x / f64::from(SIZE[0]) - 1.0, 1.0 - 2.0 * y / f64::from(SIZE[1]), 0.0);
-    let slope = [ndc.x / view.clip_from_view.x_axis.x, ndc.y / view.clip_from_view.y_axis.y];
-    let in_view = dvec3(slope[0] * depth, slope[1] * depth, -depth);
-    view.view_from_world.inverse().transform_point3(in_view)
+    let ndc = dvec3(2.0 * x / f64::from(SIZE[0]) - 1.0, 1.0 - 2.0 * y / f64::from(SIZE[1]), f64::from(depth));
+    (view.clip_from_view * view.view_from_world).inverse().project_point3(ndc)
 }
 
 #[test]
 fn the_fluid_is_in_the_picture_where_the_depth_says() {
+    for view in [view(SIZE), from_above()] {
+        covers_its_places(&view);
+    }
+}
+
+fn covers_its_places(view: &View) {
     with_gpu(|gpu| {
-        let (view, water) = (view(SIZE), positions());
-        let (with, without) = (draw(gpu, PLAIN, &view, &[&water]), draw(gpu, PLAIN, &view, &[]));
+        let water = positions();
+        let (with, without) = (draw(gpu, PLAIN, view, &[&water]), draw(gpu, PLAIN, view, &[]));
         let pictures = [&with, &without].map(|images| read_picture(gpu, images));
         let depths = [&with, &without].map(|images| read_depth(gpu, images));
         let bounds = |pick: fn(f32, f32) -> f32, grow: f32| {
@@ -45,7 +50,7 @@ fn the_fluid_is_in_the_picture_where_the_depth_says() {
             covered += 1;
             assert!(depths[0][i] > depths[1][i], "pixel {i} is behind the scene");
             assert_ne!(pictures[0][i], pictures[1][i], "pixel {i} has depth without colour");
-            let at = place(&view, i, view_depth(view.near, depths[0][i]));
+            let at = place(view, i, depths[0][i]);
             assert!(at.cmpge(low).all() && at.cmple(high).all(), "pixel {i}: fluid at {at}");
         }
         assert!(covered > 1500, "{covered} pixels");
@@ -73,7 +78,7 @@ fn glass_drawn_after_the_fluid_is_hidden_by_it() {
             if glass_alone[i] == empty[i] {
                 continue;
             }
-            let surface = place(&view, i, view_depth(view.near, depth[i].max(1e-6)));
+            let surface = place(&view, i, depth[i].max(1e-6));
             let before_pane = (surface - corner).dot(normal);
             // At the waterline depths are too close to call.
             if before_pane.abs() < 0.02 {
@@ -202,9 +207,7 @@ fn two_views_in_one_encoder_are_each_as_it_is_alone() {
     with_gpu(|gpu| {
         let water = positions();
         let front = view(SIZE);
-        let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
-        let top = View::orthographic(dvec3(0.0, 6.0, 0.0), DVec3::ZERO, DVec3::NEG_Z, 3.0, aspect, 0.1, 12.0);
-        let views = [front, top];
+        let views = [front, from_above()];
         let mut host = Host::new(&gpu.device, &gpu.queue, PLAIN);
         let images = views.map(|_| Images::new(&gpu.device, SIZE, PLAIN));
         let (buffer, settings) = (host_buffer(gpu, &water), Settings::default());
