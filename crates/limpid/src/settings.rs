@@ -232,7 +232,7 @@ pub enum CurvatureFlow {
 pub struct Smoothing {
     /// Which filter.
     pub filter: Filter,
-    /// Smoothing length in r, 0 to 20, for spheres 1.6 by default (Gaussian 1.3, bilateral 1.5, curvature flow 2.2), for ellipsoids
+    /// Smoothing length in r, 0 to 20, for spheres 1.6 by default (Gaussian 1.3, bilateral 1.5, curvature flow 2.1), for ellipsoids
     /// [`Smoothing::ELLIPSOIDS_SHARE`] of it: the standard deviation of the filter's Gaussian over the surface, the same
     /// meaning for every filter.
     pub strength: f32,
@@ -304,7 +304,7 @@ impl Smoothing {
         };
         Self {
             filter: Filter::CurvatureFlow,
-            strength: 2.2,
+            strength: 2.1,
             iterations,
             range: 10.0,
             curvature_flow: form,

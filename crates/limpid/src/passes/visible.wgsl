@@ -17,7 +17,7 @@ struct List {
 }
 
 const LEVELS: u32 = 7u; // of `fronts`, each of tiles twice as wide
-const FRONT: f32 = 2.0; // r behind the nearest centre that the first stage draws
+const FRONT: f32 = 8.0; // r behind the nearest centre that the first stage draws: seen aslant, a tile's surface is at many depths
 
 struct Center {
     depth: f32,
