@@ -48,6 +48,10 @@ impl Times {
         if self.frames.len() > HISTORY {
             self.frames.pop_front();
         }
+        // Pictures at rest have other passes than those that move.
+        if !passes.iter().map(|pass| &pass.name).eq(self.passes.iter().map(|pass| &pass.name)) {
+            self.passes.clear();
+        }
         // Smoothed, so that the numbers can be read.
         for pass in passes {
             match self.passes.iter_mut().find(|known| known.name == pass.name) {
