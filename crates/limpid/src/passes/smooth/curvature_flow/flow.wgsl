@@ -36,7 +36,7 @@ struct Normal {
 }
 
 // The place of a pixel along an axis on the plane of rays.
-fn ray_at(px: Reals, axis: vec2f) -> Reals {
+fn ray_along(px: Reals, axis: vec2f) -> Reals {
     return dot(view.px_zero, axis) + (px + 0.5) * dot(view.px_step, axis);
 }
 
@@ -46,7 +46,7 @@ fn normal_of(axis: vec2f, px: Reals, px_over: Reals, center: Reals, difference: 
     let step = select(vec2f(1.0 / view.far), vec2f(1.0), is_perspective()) * view.px_step;
     let along = difference * (1.0 / dot(step, axis)); // once a kernel, where compilers know loops
     let over = difference_over * (1.0 / dot(step, axis.yx));
-    let toward = center - ray_at(px, axis) * along - ray_at(px_over, axis.yx) * over;
+    let toward = center - ray_along(px, axis) * along - ray_along(px_over, axis.yx) * over;
     return Normal(along, over, select(Reals(1.0), toward, is_perspective()));
 }
 

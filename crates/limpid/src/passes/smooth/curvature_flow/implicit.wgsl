@@ -128,7 +128,7 @@ fn link_ahead(share: Share, i: i32, here: LinePixel, next: LinePixel) -> Link {
     let difference = next.nearness - here.nearness;
     let k = select(Reals(0.0), conductance(sum), here.has_next);
     // Half of the difference is in either slope: the sum's part along the axis, and how far that leans the sum.
-    let between = ray_at(Reals(f32(i) + 0.5), axis);
+    let between = ray_along(Reals(f32(i) + 0.5), axis);
     let along = select(view.far * sum.along, sum.along - between * sum.toward, is_perspective());
     let lean = along * difference * (1.0 / dot(view.px_step, axis));
     let lag = clamp(0.25 * lean * k * k, Reals(0.0), Reals(1.0));
