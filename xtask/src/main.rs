@@ -1,6 +1,7 @@
 //! Set-up, demo and checks of this repository. `cargo xtask` lists the verbs.
 
 mod apt;
+mod bench;
 mod bevy;
 mod checks;
 mod data;
@@ -25,12 +26,14 @@ Usage: cargo xtask VERB
   web               build the viewer's page in out/web
   web --serve       and serve it at http://localhost:8080
   bevy              test the plugin for Bevy; compiling Bevy takes long, so `test` leaves it out
+  bench             what frames cost here, everything, into out/bench: for a GPU
+  bench --quick     a part of it, a minute or two on a CPU
   figures           render the comparison pictures of docs/filters.md
   gallery           render the other pictures of docs
   golden            compare with the golden pictures
   golden --accept   make what is rendered now the golden pictures
 
-demo, test and golden install a Vulkan driver (Mesa's CPU driver) where there is none and apt-get can; test installs Chromium
+demo, test, bench and golden install a Vulkan driver (Mesa's CPU driver) where there is none and apt-get can; test installs Chromium
 and Xvfb in the same way.
 ";
 
@@ -43,6 +46,8 @@ fn main() -> ExitCode {
         ["check"] => checks::quick(),
         ["web"] => web::build(),
         ["web", "--serve"] => web::serve(),
+        ["bench"] => bench::measure(&[]),
+        ["bench", "--quick"] => bench::measure(&["--quick"]),
         ["bevy"] => bevy::check(),
         ["figures"] => figures::render_all(),
         ["gallery"] => gallery::render_all(),

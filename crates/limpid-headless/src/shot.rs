@@ -57,6 +57,26 @@ pub struct Shot<'a> {
     pub samples: u32,
 }
 
+impl<'a> Shot<'a> {
+    /// Particles by default settings before the built-in scene, and nothing else: what other fields are is a matter of `..`.
+    pub fn new(particles: ParticleSlices<'a>, view: View, size: [u32; 2], environment: Environment) -> Self {
+        Self {
+            particles,
+            motion: Motion::default(),
+            paint: Paint::default(),
+            droplets: &[],
+            view,
+            size,
+            settings: Settings::default(),
+            environment,
+            background: Background::Scene,
+            bodies: &[],
+            exposure: 1.0,
+            samples: 1,
+        }
+    }
+}
+
 /// Most samples of a pixel.
 pub const MOST_SAMPLES: u32 = 256;
 

@@ -1,26 +1,15 @@
 //! A device that fails reaches the caller as an error.
 
 use glam::DVec3;
-use limpid::{Environment, Motion, Paint, ParticleSlices, Radius, Settings, View};
-use limpid_headless::{Aov, Background, Error, Gpu, Offscreen, Shot, guarded};
+use limpid::{Environment, ParticleSlices, Radius, View};
+use limpid_headless::{Aov, Error, Gpu, Offscreen, Shot, guarded};
 
 const SIZE: [u32; 2] = [64, 48];
 
 fn shot(positions: &[[f32; 3]], size: [u32; 2]) -> Shot<'_> {
-    Shot {
-        particles: ParticleSlices { origin: DVec3::ZERO, positions, radius: Radius::Uniform(0.1), density: None },
-        motion: Motion::default(),
-        paint: Paint::default(),
-        droplets: &[],
-        view: View::perspective(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y, 0.8, 4.0 / 3.0, 0.1),
-        size,
-        settings: Settings::default(),
-        environment: Environment::around(-DVec3::ONE, DVec3::ONE, -1.0, DVec3::Y, DVec3::ONE),
-        background: Background::Scene,
-        bodies: &[],
-        exposure: 1.0,
-        samples: 1,
-    }
+    let particles = ParticleSlices { origin: DVec3::ZERO, positions, radius: Radius::Uniform(0.1), density: None };
+    let view = View::perspective(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y, 0.8, 4.0 / 3.0, 0.1);
+    Shot::new(particles, view, size, Environment::around(-DVec3::ONE, DVec3::ONE, -1.0, DVec3::Y, DVec3::ONE))
 }
 
 #[test]

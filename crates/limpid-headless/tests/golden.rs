@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use image::RgbaImage;
-use limpid::{Bounds, Environment, Framing, Motion, Paint, ParticleSlices, Radius, Scale, Settings};
+use limpid::{Bounds, Environment, Framing, ParticleSlices, Radius, Scale, Settings};
 use limpid_headless::{Background, Gpu, Offscreen, Shot};
 use std::path::{Path, PathBuf};
 
@@ -85,24 +85,18 @@ fn rendered(offscreen: &mut Offscreen, golden: &Golden) -> RgbaImage {
     let (fov_y, aspect) = (45f64.to_radians(), f64::from(SIZE[0]) / f64::from(SIZE[1]));
     let framed = Framing::of(&bounds, DVec3::Y, fov_y, aspect);
     let framing = golden.camera.map_or(framed, |[eye, target]| Framing { eye: eye.into(), target: target.into() });
+    let particles = ParticleSlices {
+        origin: DVec3::ZERO,
+        positions: &set.positions,
+        radius: Radius::Uniform(golden.radius),
+        density: None,
+    };
+    let view = framing.view(DVec3::Y, fov_y, aspect, 0.1 * radius);
+    let environment = Environment::around(bounds.min, bounds.max, bounds.min.y, DVec3::Y, framing.eye);
     let shot = Shot {
-        particles: ParticleSlices {
-            origin: DVec3::ZERO,
-            positions: &set.positions,
-            radius: Radius::Uniform(golden.radius),
-            density: None,
-        },
-        motion: Motion::default(),
-        paint: Paint::default(),
-        droplets: &[],
-        view: framing.view(DVec3::Y, fov_y, aspect, 0.1 * radius),
-        size: SIZE,
         settings: (golden.settings)(),
-        environment: Environment::around(bounds.min, bounds.max, bounds.min.y, DVec3::Y, framing.eye),
         background: golden.background,
-        bodies: &[],
-        exposure: 1.0,
-        samples: 1,
+        ..Shot::new(particles, view, SIZE, environment)
     };
     let picture = offscreen.render(&shot, &[]).unwrap();
     RgbaImage::from_raw(SIZE[0], SIZE[1], picture.rgba).unwrap()

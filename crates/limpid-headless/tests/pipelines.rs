@@ -1,33 +1,19 @@
 //! Pipelines kept on disk: pictures come whatever there is in the file's place.
 
 use glam::DVec3;
-use limpid::{Environment, Motion, Paint, ParticleSlices, Radius, Settings, View};
-use limpid_headless::{Background, Gpu, Offscreen, Shot};
+use limpid::{Environment, ParticleSlices, Radius, Settings, View};
+use limpid_headless::{Gpu, Offscreen, Shot};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A picture by a device that keeps its pipelines there.
 fn picture(folder: &Path) -> Vec<u8> {
     let positions = [[0.0; 3], [0.15, 0.0, 0.0], [0.0, 0.15, 0.1]];
-    let shot = Shot {
-        particles: ParticleSlices {
-            origin: DVec3::ZERO,
-            positions: &positions,
-            radius: Radius::Uniform(0.1),
-            density: None,
-        },
-        motion: Motion::default(),
-        paint: Paint::default(),
-        droplets: &[],
-        view: View::perspective(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y, 0.8, 4.0 / 3.0, 0.1),
-        size: [64, 48],
-        settings: Settings::spheres(),
-        environment: Environment::around(-DVec3::ONE, DVec3::ONE, -1.0, DVec3::Y, DVec3::ONE),
-        background: Background::Scene,
-        bodies: &[],
-        exposure: 1.0,
-        samples: 1,
-    };
+    let particles =
+        ParticleSlices { origin: DVec3::ZERO, positions: &positions, radius: Radius::Uniform(0.1), density: None };
+    let view = View::perspective(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y, 0.8, 4.0 / 3.0, 0.1);
+    let environment = Environment::around(-DVec3::ONE, DVec3::ONE, -1.0, DVec3::Y, DVec3::ONE);
+    let shot = Shot { settings: Settings::spheres(), ..Shot::new(particles, view, [64, 48], environment) };
     let mut offscreen = Offscreen::new(Gpu::open(None).unwrap()).unwrap();
     offscreen.keep_pipelines_in(folder);
     offscreen.render(&shot, &[]).unwrap().rgba

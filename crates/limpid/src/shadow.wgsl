@@ -92,6 +92,7 @@ fn add_liquid(
                 continue;
             }
             let texel = u32(y) * across + u32(x);
+            // depth_of, which would ask the uniform.
             let front = (1.0 - bitcast<f32>(atomicLoad(&ends[2u * texel]))) * far;
             let back = bitcast<f32>(atomicLoad(&ends[2u * texel + 1u]));
             let per_slice = f32(SHADOW_SLICES) / max(back - front, 1e-30);

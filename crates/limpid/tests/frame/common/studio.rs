@@ -2,7 +2,7 @@
 
 use super::Cloud;
 use glam::{DVec3, Vec3, Vec4, dvec3};
-use limpid::{Environment, Motion, Paint, Settings, View};
+use limpid::{Environment, Settings, View};
 use limpid_headless::{Aov, Background, Error, Gpu, Offscreen, Shot};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
@@ -32,20 +32,8 @@ impl Rendered {
 }
 
 pub fn shot_of<'a>(cloud: &'a Cloud, view: View, size: [u32; 2], settings: Settings) -> Shot<'a> {
-    Shot {
-        particles: cloud.slices(),
-        motion: Motion::default(),
-        paint: Paint::default(),
-        droplets: &[],
-        view,
-        size,
-        settings,
-        environment: Environment::around(DVec3::splat(-1.0), DVec3::splat(1.0), -1.0, DVec3::Y, dvec3(2.0, 1.0, 3.0)),
-        background: Background::Transparent,
-        bodies: &[],
-        exposure: 1.0,
-        samples: 1,
-    }
+    let environment = Environment::around(DVec3::splat(-1.0), DVec3::splat(1.0), -1.0, DVec3::Y, dvec3(2.0, 1.0, 3.0));
+    Shot { settings, background: Background::Transparent, ..Shot::new(cloud.slices(), view, size, environment) }
 }
 
 /// Several tests at once share the device; one that failed does no harm to it.
