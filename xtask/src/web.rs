@@ -32,13 +32,8 @@ pub fn ensure_browser() -> Result {
     if !browsers.iter().any(|program| succeeds(Command::new(program).arg("--version"))) {
         apt::install("Chromium", &["chromium"], "apt-get install chromium")?;
     }
-    let display = ["/usr/bin/xvfb-run", "/usr/bin/xdotool"];
-    if cfg!(target_os = "linux") && !display.iter().all(|program| Path::new(program).exists()) {
-        apt::install(
-            "virtual display",
-            &["xvfb", "xauth", "libxkbcommon-x11-0", "xdotool"],
-            "apt-get install xvfb xauth libxkbcommon-x11-0 xdotool",
-        )?;
+    if cfg!(target_os = "linux") && !Path::new("/usr/bin/Xvfb").exists() {
+        apt::install("virtual display", &["xvfb", "libxkbcommon-x11-0"], "apt-get install xvfb libxkbcommon-x11-0")?;
     }
     Ok(())
 }

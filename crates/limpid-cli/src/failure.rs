@@ -1,8 +1,8 @@
 //! Everything that ends the program early, in one line that says what to do.
 
+use crate::console;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Why the program cannot do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -54,7 +54,7 @@ pub enum Failure {
     /// Standard output cannot be written.
     #[error("standard output cannot be written ({0})")]
     Stdout(io::Error),
-    /// The viewer's window cannot be shown.
+    /// The viewer's window cannot be shown, or not any more.
     #[error("{0}")]
     Window(String),
     /// Values that cannot be turned into JSON or TOML.
@@ -74,8 +74,13 @@ impl Failure {
     }
 
     /// 2 for mistakes in the options, else 1.
-    pub fn exit_code(&self) -> ExitCode {
-        ExitCode::from(if matches!(self, Self::Usage(_)) { 2 } else { 1 })
+    pub fn exit_code(&self) -> u8 {
+        if matches!(self, Self::Usage(_)) { 2 } else { 1 }
+    }
+
+    /// Says it.
+    pub fn report(&self) {
+        console::note(&format!("error: {}", one_line(&self.to_string())));
     }
 }
 

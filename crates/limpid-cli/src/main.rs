@@ -24,8 +24,8 @@ fn main() -> ExitCode {
     match run(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            console::note(&format!("error: {}", failure::one_line(&failure.to_string())));
-            failure.exit_code()
+            failure.report();
+            failure.exit_code().into()
         }
     }
 }

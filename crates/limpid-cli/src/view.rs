@@ -38,6 +38,11 @@ pub fn run(arguments: Box<ViewArguments>) -> Result<(), Failure> {
         sequence,
         plays: play,
         screenshot,
+        lost: |reason| {
+            let failure = Failure::Window(reason.to_owned());
+            failure.report();
+            std::process::exit(failure.exit_code().into())
+        },
     })
     .map_err(Failure::Window)
 }

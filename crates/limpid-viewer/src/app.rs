@@ -51,6 +51,8 @@ pub struct Start {
     pub adapter: String,
     /// How its work is cut up, where its driver does not say.
     pub lanes: Option<Lanes>,
+    /// Told why once the device is lost, on whatever thread finds out. Libraries between may panic from then on.
+    pub lost: Box<dyn Fn(&str) + Send>,
     /// The page's way to read large files.
     #[cfg(target_arch = "wasm32")]
     pub read_beside: ReadBeside,
@@ -111,7 +113,7 @@ impl Viewer {
         let gpu = context.wgpu_render_state.clone().ok_or("there is no graphics device")?;
         let info = AdapterInfo::new(&gpu.adapter.get_info());
         let adapter = if info.name.is_empty() { start.adapter } else { info.name };
-        report_failures(&gpu.device, &desk, &context.egui_ctx);
+        report_failures(&gpu.device, &desk, start.lost);
         let size = start.options.size();
         let mut playback = Playback::new(start.plays, start.screenshot.is_none());
         // A film that is waited for shows every frame.
@@ -202,13 +204,11 @@ impl Viewer {
 }
 
 /// Errors of the device appear in the window; without a device there is none to appear in.
-fn report_failures(device: &wgpu::Device, desk: &Desk, ctx: &egui::Context) {
+fn report_failures(device: &wgpu::Device, desk: &Desk, lost: Box<dyn Fn(&str) + Send>) {
     let problems = desk.clone();
     device.on_uncaptured_error(Arc::new(move |error| problems.put(Command::Problem(format!("graphics: {error}")))));
-    let (lost, ctx) = (desk.clone(), ctx.clone());
     device.set_device_lost_callback(move |_, reason| {
-        lost.fail(format!("the graphics device was lost ({})", reason.trim().trim_end_matches('.')));
-        ctx.request_repaint();
+        lost(&format!("the graphics device was lost ({})", reason.trim().trim_end_matches('.')));
     });
 }
 

@@ -72,7 +72,6 @@ impl Desk {
 
     /// Gives up. There may be no window left to say so in.
     pub fn fail(&self, reason: String) {
-        crate::announce_failure(&reason);
         lock(&self.status).failure.get_or_insert(reason);
     }
 

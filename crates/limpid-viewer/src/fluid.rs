@@ -144,7 +144,7 @@ impl Fluid {
         };
         if let Some(shown) = self.painter.shown() {
             let to = target.texture.create_view(&Default::default());
-            self.blitter.copy(&self.device, &mut encoder, &crate::premultiply::raw_view(shown), &to);
+            self.blitter.copy(&self.device, &mut encoder, &crate::screen::raw_view(shown), &to);
         }
         self.queue.submit([encoder.finish()]);
         self.queue.present(target);

@@ -15,7 +15,6 @@ mod link;
 mod pace;
 mod picture;
 mod playback;
-mod premultiply;
 mod read;
 mod save;
 mod screen;
@@ -32,6 +31,6 @@ mod web;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{Opening, run};
 #[cfg(not(target_arch = "wasm32"))]
-use native::{announce_failure, page_address, receive_dropped, show_address};
+use native::{page_address, receive_dropped, show_address};
 #[cfg(target_arch = "wasm32")]
-use web::{announce_failure, page_address, receive_dropped, show_address};
+use web::{page_address, receive_dropped, show_address};

@@ -1,7 +1,6 @@
 //! Drawing a shot into a texture of the window's.
 
 use crate::pace::Grade;
-use crate::premultiply::{Premultiply, raw_view};
 use crate::screen::Screen;
 use eframe::egui::{self, TextureId};
 use eframe::egui_wgpu::{RenderState, wgpu};
@@ -14,8 +13,6 @@ use std::sync::Arc;
 /// A picture in the window, with all that it takes to draw it again.
 pub struct Picture {
     painter: Painter,
-    /// Made when first asked for.
-    premultiply: Option<Premultiply>,
     screen: Screen,
     /// What is on it; 0: nothing.
     drawn_size: [u32; 2],
@@ -107,7 +104,6 @@ impl Picture {
         }
         Self {
             painter,
-            premultiply: None,
             screen: Screen::new(gpu),
             drawn_size: [0; 2],
             is_transparent: false,
@@ -198,11 +194,6 @@ impl Picture {
         let drawn = self.painter.draw(&gpu.device, &gpu.queue, &mut encoder, &shot, &loaded.particles);
         let profiler = self.painter.renderer_mut().set_profiler(None);
         drawn?;
-        let is_transparent = shot.background == Background::Transparent;
-        let premultiplied = self.painter.shown().filter(|_| is_transparent).map(|shown| {
-            let pass = self.premultiply.get_or_insert_with(|| Premultiply::new(&gpu.device));
-            pass.encode(&gpu.device, &mut encoder, shown).create_view(&Default::default())
-        });
         let mut peek = match options.show {
             Some(aov) if self.peek.is_none() => self.painter.peek(&gpu.device, &mut encoder, &shot, aov.0),
             _ => None,
@@ -236,16 +227,15 @@ impl Picture {
         }
         self.peek = self.peek.take().or(peek);
         self.grab = grab.or(self.grab.take());
-        self.show(gpu, shot.size, premultiplied);
+        self.show(gpu, shot.size, shot.background == Background::Transparent);
         Ok(stage.pose())
     }
 
-    fn show(&mut self, gpu: &RenderState, size: [u32; 2], premultiplied: Option<wgpu::TextureView>) {
-        let is_new = (self.drawn_size, self.is_transparent) != (size, premultiplied.is_some());
+    fn show(&mut self, gpu: &RenderState, size: [u32; 2], is_transparent: bool) {
+        let is_new = (self.drawn_size, self.is_transparent) != (size, is_transparent);
         let Some(shown) = self.painter.shown().filter(|_| is_new) else { return };
-        self.is_transparent = premultiplied.is_some();
-        self.screen.show(&gpu.device, &premultiplied.unwrap_or_else(|| raw_view(shown)));
-        self.drawn_size = size;
+        self.screen.show(&gpu.device, shown, is_transparent);
+        (self.drawn_size, self.is_transparent) = (size, is_transparent);
     }
 
     /// What to put into the window.

@@ -3,6 +3,7 @@
 
 use eframe::egui::{self, Rect};
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, Renderer, wgpu};
+use limpid_headless::Painter;
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,77 +11,51 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// One picture's place in the window.
 pub struct Screen {
     number: u64,
-    layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
-    sampler: wgpu::Sampler,
+    target: wgpu::TextureFormat,
     renderer: Arc<egui::mutex::RwLock<Renderer>>,
 }
 
-/// What is shown, by the number of its screen. It lies with egui's renderer, since what egui is handed to draw must be able to go to
-/// other threads, which handles of a page cannot.
+/// It lies with egui's renderer, since what egui is handed to draw must be able to go to other threads, which handles of a page
+/// cannot.
 #[derive(Default)]
-struct Shown(HashMap<u64, (wgpu::RenderPipeline, wgpu::BindGroup)>);
+struct Shown {
+    /// For opaque pictures and for transparent ones, all screens'.
+    pipelines: [Option<wgpu::RenderPipeline>; 2],
+    /// By the number of the screen.
+    pictures: HashMap<u64, (wgpu::RenderPipeline, wgpu::BindGroup)>,
+}
 
 impl Screen {
-    /// Builds the pipeline.
+    /// An empty one.
     pub fn new(gpu: &RenderState) -> Self {
         static COUNT: AtomicU64 = AtomicU64::new(0);
-        let device = &gpu.device;
-        let module = device.create_shader_module(wgpu::include_wgsl!("screen.wgsl"));
-        // What is shown is encoded for the screen; a target that encodes by itself wants light.
-        let entry_point = if gpu.target_format.is_srgb() { "show_light" } else { "show" };
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("screen"),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("whole"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: Default::default(),
-            depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(entry_point),
-                compilation_options: Default::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: gpu.target_format,
-                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        Self {
+            number: COUNT.fetch_add(1, Ordering::Relaxed),
+            target: gpu.target_format,
+            renderer: Arc::clone(&gpu.renderer),
+        }
+    }
+
+    /// Shows another of [`Painter::shown`]'s textures from now on.
+    pub fn show(&self, device: &wgpu::Device, picture: &wgpu::Texture, is_transparent: bool) {
+        let mut renderer = self.renderer.write();
+        let shown: &mut Shown = renderer.callback_resources.entry().or_insert_with(Shown::default);
+        let pipeline = shown.pipelines[usize::from(is_transparent)]
+            .get_or_insert_with(|| pipeline(device, self.target, is_transparent));
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             ..Default::default()
         });
-        Self {
-            number: COUNT.fetch_add(1, Ordering::Relaxed),
-            layout: pipeline.get_bind_group_layout(0),
-            pipeline,
-            sampler,
-            renderer: Arc::clone(&gpu.renderer),
-        }
-    }
-
-    /// Shows another texture from now on: encoded for the screen, premultiplied.
-    pub fn show(&self, device: &wgpu::Device, texture: &wgpu::TextureView) {
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &self.layout,
+            layout: &pipeline.get_bind_group_layout(0),
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(texture) },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&self.sampler) },
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&raw_view(picture)) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
             ],
         });
-        let mut renderer = self.renderer.write();
-        let shown: &mut Shown = renderer.callback_resources.entry().or_insert_with(Shown::default);
-        shown.0.insert(self.number, (self.pipeline.clone(), group));
+        shown.pictures.insert(self.number, (pipeline.clone(), group));
     }
 
     /// The picture as egui draws it; nothing before the first [`Self::show`].
@@ -92,9 +67,49 @@ impl Screen {
 impl Drop for Screen {
     fn drop(&mut self) {
         if let Some(shown) = self.renderer.write().callback_resources.get_mut::<Shown>() {
-            shown.0.remove(&self.number);
+            shown.pictures.remove(&self.number);
         }
     }
+}
+
+fn pipeline(device: &wgpu::Device, target: wgpu::TextureFormat, is_transparent: bool) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::include_wgsl!("screen.wgsl"));
+    let constants = [("is_transparent", is_transparent), ("encodes", target.is_srgb())];
+    let constants = constants.map(|(name, holds)| (name, f64::from(u8::from(holds))));
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("screen"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("whole"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("show"),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            targets: &[Some(wgpu::ColorTargetState {
+                format: target,
+                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// The bytes as they are: what windows and pages show is encoded for the screen too.
+pub fn raw_view(picture: &wgpu::Texture) -> wgpu::TextureView {
+    picture.create_view(&wgpu::TextureViewDescriptor {
+        format: Some(Painter::SHOWN_RAW),
+        usage: Some(wgpu::TextureUsages::TEXTURE_BINDING),
+        ..Default::default()
+    })
 }
 
 /// The number of a screen.
@@ -102,7 +117,8 @@ struct Sheet(u64);
 
 impl CallbackTrait for Sheet {
     fn paint(&self, _: egui::PaintCallbackInfo, pass: &mut wgpu::RenderPass<'static>, resources: &CallbackResources) {
-        let Some((pipeline, group)) = resources.get::<Shown>().and_then(|shown| shown.0.get(&self.0)) else { return };
+        let shown = resources.get::<Shown>().and_then(|shown| shown.pictures.get(&self.0));
+        let Some((pipeline, group)) = shown else { return };
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, group, &[]);
         pass.draw(0..3, 0..1);

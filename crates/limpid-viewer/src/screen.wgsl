@@ -1,7 +1,12 @@
-// A picture over the whole viewport.
+// A picture over the whole viewport, as it is blended there: its colours times their alpha.
 
-@group(0) @binding(0) var picture: texture_2d<f32>; // encoded for the screen, premultiplied
+@group(0) @binding(0) var picture: texture_2d<f32>; // encoded for the screen, straight alpha
 @group(0) @binding(1) var bilinear: sampler;
+
+// Whether there is alpha other than 1.
+override is_transparent: bool;
+// Whether the target encodes by itself: it wants light.
+override encodes: bool;
 
 struct Corner {
     @builtin(position) position: vec4f,
@@ -16,14 +21,34 @@ fn whole(@builtin(vertex_index) index: u32) -> Corner {
 
 @fragment
 fn show(corner: Corner) -> @location(0) vec4f {
-    return textureSample(picture, bilinear, corner.at);
+    var color: vec4f;
+    if is_transparent {
+        color = between_covers(corner.at);
+    } else {
+        color = textureSampleLevel(picture, bilinear, corner.at, 0.0);
+    }
+    if encodes {
+        color = vec4f(light(color.rgb), color.a);
+    }
+    return color;
 }
 
-// As light, for targets that encode it.
-@fragment
-fn show_light(corner: Corner) -> @location(0) vec4f {
-    let encoded = textureSample(picture, bilinear, corner.at);
-    let dark = encoded.rgb / 12.92;
-    let light = pow((encoded.rgb + 0.055) / 1.055, vec3f(2.4));
-    return vec4f(select(light, dark, encoded.rgb <= vec3f(0.04045)), encoded.a);
+// The sampler would let what does not cover darken what does.
+fn between_covers(at: vec2f) -> vec4f {
+    let place = at * vec2f(textureDimensions(picture)) - 0.5;
+    let texel = vec2i(floor(place));
+    let part = fract(place);
+    let upper = mix(cover(texel), cover(texel + vec2i(1, 0)), part.x);
+    let lower = mix(cover(texel + vec2i(0, 1)), cover(texel + vec2i(1, 1)), part.x);
+    return mix(upper, lower, part.y);
+}
+
+fn cover(texel: vec2i) -> vec4f {
+    let last = vec2i(textureDimensions(picture)) - 1;
+    let straight = textureLoad(picture, clamp(texel, vec2i(0), last), 0);
+    return vec4f(straight.rgb * straight.a, straight.a);
+}
+
+fn light(encoded: vec3f) -> vec3f {
+    return select(pow((encoded + 0.055) / 1.055, vec3f(2.4)), encoded / 12.92, encoded <= vec3f(0.04045));
 }

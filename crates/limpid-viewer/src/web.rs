@@ -38,6 +38,7 @@ pub async fn start(
     setup.device_descriptor = Arc::new(device_descriptor);
     let wgpu_options = WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() };
     let options = eframe::WebOptions { wgpu_options, ..Default::default() };
+    let of_loss = desk.clone();
     let start = Start {
         options: Options::defaults(),
         has_size: false,
@@ -45,6 +46,7 @@ pub async fn start(
         screenshot: None,
         adapter,
         lanes: Some(if is_cpu { Lanes::Few } else { Lanes::Many }),
+        lost: Box::new(move |reason| announce_failure(&of_loss, reason)),
         read_beside,
     };
     let (sender, context) = std::sync::mpsc::channel();
@@ -199,7 +201,8 @@ pub fn receive_dropped(ctx: &egui::Context, desk: &Desk, files: Vec<egui::Droppe
 }
 
 /// Tells the page, which can still show it.
-pub fn announce_failure(reason: &str) {
+fn announce_failure(desk: &Desk, reason: &str) {
+    desk.fail(reason.to_owned());
     let init = web_sys::CustomEventInit::new();
     init.set_detail(&reason.into());
     let event = web_sys::CustomEvent::new_with_event_init_dict("limpid-failure", &init);

@@ -114,7 +114,7 @@ impl Viewer {
     fn show_problems(&mut self, ui: &mut Ui, width: f32) {
         let mut closed = None;
         for (i, problem) in self.problems.iter().enumerate() {
-            let fill = ui.visuals().error_fg_color.gamma_multiply(0.15).blend(ui.visuals().window_fill);
+            let fill = ui.visuals().window_fill.blend(ui.visuals().error_fg_color.gamma_multiply(0.15));
             egui::Frame::popup(ui.style()).fill(fill).show(ui, |ui| {
                 ui.set_max_width(width - 24.0);
                 ui.horizontal_wrapped(|ui| {

@@ -1,20 +1,27 @@
 //! The viewer's window on a virtual display.
 #![cfg(target_os = "linux")]
 
+#[path = "../common/mod.rs"]
 mod common;
+mod desktop;
+mod screen;
+mod trouble;
+mod user;
 
 use common::Folder;
+use desktop::Desktop;
 use std::path::Path;
 use std::process::{Command, Output};
 
 const SHOT: &str = "size = \"480x320\"\nlook = \"pool\"\nthickness-scale = 1\nsamples = 3\n\
     spray-neighbours = 12\nfoam-particles = \"foam_{}.csv\"\ndroplet-radius = 0.5\n";
 
-/// `limpid view` in a folder, without a screen.
+/// `limpid view` in a folder, until it has closed its window itself.
 fn view(folder: &Folder, arguments: &[&str]) -> Output {
-    let mut command = Command::new("xvfb-run");
-    command.args(["-a", "-s", "-screen 0 1024x768x24", env!("CARGO_BIN_EXE_limpid"), "view"]).args(arguments);
-    command.current_dir(folder.path("")).output().expect("xvfb-run is there: apt-get install xvfb")
+    let desktop = Desktop::new();
+    let mut command = folder.command(&[&["view"], arguments].concat());
+    desktop.invite(&mut command);
+    command.output().unwrap()
 }
 
 #[test]
@@ -97,37 +104,6 @@ fn a_picture_that_cannot_be_is_refused_in_one_line() {
         assert!(!output.status.success() && said.contains(named) && said.trim().lines().count() == 1, "{said}");
     }
     assert_eq!(folder.names(), ["broken.bgeo", "cube.pos"]);
-}
-
-/// By the keys of someone who sits before it: made tiny and large again, flown, taken back; a picture saved each time.
-#[test]
-fn the_window_outlives_a_tiny_size_and_takes_steps_back() {
-    let folder = Folder::new();
-    folder.write_pos("cube.pos", &common::cube(6, 0.0));
-    let script = format!(
-        "{limpid} view cube.pos --size 240x160 & viewer=$!
-        window=$(xdotool search --sync --onlyvisible --name '^limpid$' | head -n 1)
-        save() {{ rm -f limpid_*; while [ ! -e limpid_0001.png ]; do xdotool key --delay 50 ctrl+s; sleep 2; done; }}
-        xdotool windowfocus --sync $window; sleep 2
-        xdotool windowsize $window 1 1; sleep 1
-        xdotool windowsize $window 900 700; sleep 1
-        save; cp limpid_0001.png before.png
-        until save && ! cmp -s limpid_0001.png before.png; do xdotool keydown w; sleep 0.5; xdotool keyup w; sleep 1; done
-        cp limpid_0001.png flown.png
-        until save && cmp -s limpid_0001.png before.png; do xdotool key --delay 50 ctrl+z; sleep 1; done
-        cp limpid_0001.png back.png
-        kill $viewer",
-        limpid = env!("CARGO_BIN_EXE_limpid")
-    );
-    let mut command = Command::new("timeout");
-    command.args(["240", "xvfb-run", "-a", "-s", "-screen 0 1024x768x24", "sh", "-c", &script]);
-    let output = command.current_dir(folder.path("")).output().unwrap();
-    let pixels = |name: &str| image::open(folder.path(name)).map(|image| image.to_rgb8());
-    let pixels = |name: &str| pixels(name).unwrap_or_else(|error| panic!("{name}: {error}; {output:?}"));
-    folder.succeed(&["render", "cube.pos", "--size", "240x160", "-o", "made.png"]);
-    assert!(pixels("before.png") == pixels("made.png"));
-    assert!(pixels("flown.png") != pixels("made.png"));
-    assert!(pixels("back.png") == pixels("made.png"));
 }
 
 #[test]
