@@ -71,7 +71,9 @@ impl Counts {
         let Self { particles, pixels, tile_pixels, samples, box_pixels, texels, iterations } = *self;
         let filter_steps = |steps: f64, looks: Option<f64>| Work { bytes: steps * 8.0 * tile_pixels, looks };
         Some(match name {
-            // Cleared, and written where there is fluid.
+            // Asked three times each, beside a look at every pixel between the two stages.
+            "visible" => Work { bytes: 3.0 * 16.0 * particles + 4.0 * pixels, looks: None },
+            // Cleared, and written where there is fluid. Looks as if no ball were hidden.
             "splat-depth" => Work { bytes: 16.0 * particles + 4.0 * (pixels + tile_pixels), looks: Some(box_pixels) },
             // A pyramid of sums is a third larger than its finest level; cleared, added to, read once.
             "splat-thickness" => {

@@ -1,7 +1,7 @@
 //! Caustics: where the sun's light lands on the scene after the liquid has bent it (`caustics.wgsl`).
 
 use crate::gpu::{Grid, Kernel, Recorder, Slot, bind, storage_buffer, uniform_buffer};
-use crate::passes::{Normals, OpticsUniform, Smooth, Splat, Tiles, module};
+use crate::passes::{Normals, OpticsUniform, Smooth, Surface, Tiles, module};
 use crate::renderer::{Nothing, SettingsUniform, frame_layout};
 use crate::shadow::{CAUSTICS_FIRST_WORD, Shadow, shadow_texels};
 use crate::targets::Targets;
@@ -31,7 +31,7 @@ pub(crate) struct LensUniform {
 
 /// The renderer's passes, lent for the sun's view.
 pub(crate) struct SurfacePasses<'a> {
-    pub splat: &'a mut Splat,
+    pub surface: &'a mut Surface,
     pub tiles: &'a Tiles,
     pub smooth: &'a Smooth,
     pub normals: &'a Normals,
@@ -122,8 +122,9 @@ impl Caustics {
         let recorder = &mut recorder.in_frame(&self.frame_group);
         // Timed as a whole: what is not measured counts to the next pass that is.
         let profiler = recorder.profiler.take();
-        passes.splat.clear(recorder, targets);
-        particles.chunks.iter().for_each(|chunk| passes.splat.spheres(recorder, chunk, targets));
+        let spheres = &Settings::spheres();
+        passes.surface.clear(recorder, queue, particles, spheres, targets);
+        passes.surface.encode(recorder, particles, spheres, targets);
         passes.tiles.encode(recorder, targets);
         let smoothed = passes.smooth.encode(recorder, &SMOOTHING, targets);
         passes.normals.encode(recorder, smoothed, &passes.nothing.depth, targets);

@@ -23,7 +23,7 @@ const MERGES: [fn(u32, u32) -> u32; IMAGES] = [
 ];
 const AMID: u32 = 0x7fff_ffff;
 
-const MAGIC: [u8; 8] = *b"LIMPIDP1";
+const MAGIC: [u8; 8] = *b"LIMPIDP2";
 
 /// What particles of equal images have in common: first the lengths of the images, then the view and what splats depend on,
 /// as words.

@@ -7,8 +7,8 @@ use crate::environment::ShadowTint;
 use crate::gpu::{Pipelines, Profiler, Recorder, Slot, Watch, bind, slot_entries, storage_buffer, uniform_buffer};
 use crate::partial::Conditions;
 use crate::passes::{
-    Composite, Curvature, Detail, DropletImages, DropletsPass, Ellipsoids, FluidPasses, Gather, Layers, LiquidsUniform,
-    Normals, Paint, PaintLayout, ResolveDepth, SceneViews, Shade, Smooth, Splat, Thickness, Tiles, Upsample, With,
+    Composite, Curvature, Detail, DropletImages, DropletsPass, FluidPasses, Gather, Layers, LiquidsUniform, Normals,
+    Paint, PaintLayout, ResolveDepth, SceneViews, Shade, Smooth, Surface, Thickness, Tiles, Upsample, With,
     level_count,
 };
 use crate::shadow::{FloorShadow, SCENE_SHADOW_TEXELS, Shadow, shadow_texels};
@@ -77,8 +77,7 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     view: wgpu::Buffer,
     settings: wgpu::Buffer,
-    ellipsoids: Ellipsoids,
-    splat: Splat,
+    surface: Surface,
     tiles: Tiles,
     thickness: Thickness,
     smooth: Smooth,
@@ -188,8 +187,7 @@ impl Renderer {
         Self {
             view: uniform_buffer::<ViewUniform>(device, "view"),
             settings: uniform_buffer::<SettingsUniform>(device, "settings"),
-            ellipsoids: Ellipsoids::new(device, &layout),
-            splat: Splat::new(device, &layout),
+            surface: Surface::new(device, &layout),
             tiles: Tiles::new(device, &layout),
             thickness: Thickness::new(device, &layout),
             smooth: Smooth::new(device, &layout),
@@ -225,8 +223,7 @@ impl Renderer {
         Self {
             view: uniform_buffer::<ViewUniform>(device, "view"),
             settings: uniform_buffer::<SettingsUniform>(device, "settings"),
-            ellipsoids: self.ellipsoids.clone(),
-            splat: self.splat.clone(),
+            surface: self.surface.clone(),
             tiles: self.tiles.clone(),
             thickness: self.thickness.clone(),
             smooth: self.smooth.clone(),
@@ -366,7 +363,7 @@ impl Renderer {
                 none => none.insert(Caustics::new(device)?),
             };
             let passes = SurfacePasses {
-                splat: &mut self.splat,
+                surface: &mut self.surface,
                 tiles: &self.tiles,
                 smooth: &self.smooth,
                 normals: &self.normals,
@@ -444,7 +441,6 @@ impl Renderer {
         recorder.write(queue, &self.view, &view);
         let uniform = settings_uniform(frame, &targets);
         recorder.write(queue, &self.settings, &uniform);
-        self.ellipsoids.write(recorder, queue, particles, &settings.anisotropy);
         let liquids = LiquidsUniform::new(settings, particles, paint_layout.as_ref());
         // Cast once for each frame; what the host draws after the fluid is shaded by it too.
         let shadow = self.shadow_tint.filter(|_| std::mem::take(&mut self.shadow_is_new));
@@ -459,7 +455,7 @@ impl Renderer {
             let resolve = self.resolve_depth.get_or_insert_with(|| ResolveDepth::new(device, &self.frame_layout));
             resolve.encode(recorder, depth, frame.size)
         });
-        self.splat.clear(recorder, &targets);
+        self.surface.clear(recorder, queue, particles, settings, &targets);
         if settings.fixed_thickness.is_none() {
             self.thickness.clear(recorder, scene_depth.as_ref(), &targets.thickness);
         }
@@ -478,13 +474,7 @@ impl Renderer {
     ) {
         let Begun { targets, frame_group, .. } = begun;
         let recorder = &mut self.watch.recorder(device, encoder, frame_group);
-        let balls = if settings.anisotropy.enabled {
-            let skip_hidden = settings.anisotropy.skip_hidden;
-            self.ellipsoids.encode(recorder, particles, &mut self.splat, targets, skip_hidden)
-        } else {
-            particles.chunks.iter().for_each(|chunk| self.splat.spheres(recorder, chunk, targets));
-            &particles.chunks
-        };
+        let balls = self.surface.encode(recorder, particles, settings, targets);
         if settings.fixed_thickness.is_none() {
             self.thickness.splat(recorder, balls, &targets.thickness);
         }
@@ -601,7 +591,7 @@ impl Renderer {
 
     /// The particles of the last frame with [`crate::Anisotropy`], for reading back.
     pub fn ellipsoids(&self) -> impl Iterator<Item = EllipsoidBuffers<'_>> {
-        self.ellipsoids.buffers()
+        self.surface.ellipsoid_buffers()
     }
 
     /// Noise and foam of the last prepared frame, for reading back; None where it had none.

@@ -12,6 +12,9 @@ pub struct Settings {
     /// Particles of lower density (in the file's unit) are stray and left out; 0, the default, keeps all
     /// (van der Laan 2009, section 3.1).
     pub density_threshold: f32,
+    /// Whether to leave out particles that provably cannot show, default yes: the depth is the same to the bit, sooner.
+    /// In the thickness they are spheres.
+    pub skip_hidden: bool,
     /// Resolution of the thickness image, default half.
     pub thickness_scale: Scale,
     /// Whether the thickness is blurred within the fluid, default true; false shows the plain sum.
@@ -59,6 +62,7 @@ impl Default for Settings {
         Self {
             splat_scale: 1.5,
             density_threshold: 0.0,
+            skip_hidden: true,
             thickness_scale: Scale::Half,
             thickness_blur: true,
             fixed_thickness: None,
@@ -139,9 +143,6 @@ pub struct Anisotropy {
     /// spheres are, by the strength / [`Smoothing::ELLIPSOIDS_SHARE`]: their shape is nothing to see and costs most of the time
     /// where there are millions. From here to 4/3 of it they turn into ellipsoids. 0: all are.
     pub min_radius_px: f32,
-    /// Whether to leave out particles that provably cannot show, default yes: the depth is the same to the bit, sooner.
-    /// In the thickness they are spheres.
-    pub skip_hidden: bool,
 }
 
 impl Default for Anisotropy {
@@ -153,7 +154,6 @@ impl Default for Anisotropy {
             min_neighbours: 22.0,
             center_smoothing: 1.0,
             min_radius_px: 1.5,
-            skip_hidden: true,
         }
     }
 }

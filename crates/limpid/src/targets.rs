@@ -21,8 +21,6 @@ pub(crate) struct Targets {
     /// The fluid's own pixels: the size of all images below but `thickness` and `picture`.
     pub size: [u32; 2],
     pub thickness_scale: Scale,
-    /// Whether the frame has a scene's depth.
-    pub in_scene: bool,
     /// f32 nearness (frame.wgsl) after the splat.
     pub raw: wgpu::Buffer,
     /// u32 nearness bits per block, then per tile of each width, that all its pixels reach (`covered.wgsl`).
@@ -60,6 +58,8 @@ pub(crate) struct ThicknessImages {
     pub levels_used: wgpu::Buffer,
     /// f32 thickness in world units: the first is the result. Negative: `hidden.wgsl`.
     pub images: [wgpu::Buffer; 2],
+    /// Whether the frame has a scene's depth.
+    pub in_scene: bool,
     pub occlusion: Occlusion,
 }
 
@@ -85,6 +85,7 @@ impl ThicknessImages {
             sums: image("thickness sums", pyramid_texels(size)),
             levels_used: image("thickness levels used", 1),
             images: [image("thickness a", texels), image("thickness b", texels)],
+            in_scene,
             occlusion: Occlusion {
                 ranges: image("scene ranges", hideable(2 * pyramid_texels(size))),
                 between: image("thickness between", hideable(pyramid_texels(size))),
@@ -145,7 +146,6 @@ impl Targets {
             smooth: [image("nearness a", 4 * pixels), image("nearness b", 4 * pixels)],
             smoothing_lengths: image("smoothing lengths", 4 * pixels),
             segments: [Segments::new(device, size[1], size[0]), Segments::new(device, size[0], size[1])],
-            in_scene,
             thickness: ThicknessImages::new(device, thickness_scale.of(picture_size), in_scene),
             surface: image("surface", (16 * pixels).max(relations_bytes(size)).max(records)),
             shaded: image("shaded", 16 * pixels),
@@ -163,7 +163,7 @@ impl Targets {
         self.picture_size == picture_size
             && self.filter_scale == settings.filter_scale
             && self.thickness_scale == settings.thickness_scale
-            && self.in_scene == in_scene
+            && self.thickness.in_scene == in_scene
     }
 
     /// What the particles leave behind, with the words of each that count: all that later passes know of them.
@@ -173,10 +173,11 @@ impl Targets {
         let texels = pyramid_texels(thickness.size) as usize;
         [
             (raw, pixels),
-            (covered, covered_words(self.size) as usize),
+            // Tiles are noted from stage to stage; only blocks say what no pixel does.
+            (covered, cells(self.size, BLOCK_PX) as usize),
             (&thickness.sums, texels),
             (&thickness.levels_used, 1),
-            (&thickness.occlusion.between, if self.in_scene { texels } else { 0 }),
+            (&thickness.occlusion.between, if self.thickness.in_scene { texels } else { 0 }),
         ]
     }
 

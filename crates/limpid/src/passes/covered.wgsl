@@ -33,12 +33,12 @@ fn can_show(ball: Ball, box: PixelBox) -> bool {
     let first = covered_level(level);
     let columns = tile_counts(level).x;
     let width = TILE << u32(level);
+    // All of them, whatever the first say: to CPU drivers a way out of a loop costs more than a few rounds.
+    var least = 0xffffffffu;
     for (var y = box.min.y / width; y <= box.max.y / width; y++) {
         for (var x = box.min.x / width; x <= box.max.x / width; x++) {
-            if atomicLoad(&covered[first + y * columns + x]) < nearest {
-                return true;
-            }
+            least = min(least, atomicLoad(&covered[first + y * columns + x]));
         }
     }
-    return false;
+    return least < nearest;
 }

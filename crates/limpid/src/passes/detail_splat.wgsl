@@ -19,8 +19,6 @@ const REACH: f32 = 3.0;
 const SHARPNESS: f32 = 3.0;
 // Makes the noise of one calm octave 1 RMS on a lattice of spacing 2 r.
 const RMS_ONE: f32 = 7.0;
-// Texels in the bounding box above which a splat gets a workgroup of its own.
-const LARGE_TEXELS: i32 = 1024;
 
 // Weight at a squared distance from the centre, 1 at the rim.
 fn kernel_weight(squared: f32) -> f32 {
@@ -35,6 +33,10 @@ struct Sprite {
     amplitude: f32,
     foam: f32, // what its foam goes by
     box: PixelBox,
+}
+
+fn sprite_count() -> u32 {
+    return arrayLength(&particles);
 }
 
 // An empty box: out of sight or behind the surface.
@@ -60,7 +62,7 @@ fn sprite_of(index: u32) -> Sprite {
 }
 
 // Whether anything of the smoothed surface within the box lies as deep as the sprite begins.
-fn can_touch(sprite: Sprite) -> bool {
+fn can_show(sprite: Sprite) -> bool {
     let depth = max(-sprite.center.z - REACH * sprite.radius, view.near);
     let least = nearness_of(depth);
     let across = (i32(view.size.x) + 7) / 8;
@@ -84,7 +86,7 @@ fn add(plane: u32, texel: u32, value: f32) {
     }
 }
 
-fn splat_texel(sprite: Sprite, texel: vec2i) {
+fn draw(sprite: Sprite, texel: vec2i) {
     let pixel = texel_pixel(texel, detail);
     let near = nearness[u32(pixel.y) * view.size.x + u32(pixel.x)];
     if near <= 0.0 {
@@ -117,51 +119,5 @@ fn splat_texel(sprite: Sprite, texel: vec2i) {
     if (weight > 0.0) & (detail.foam != FOAM_OFF) {
         add(1u, at, weight * sprite.foam);
         add(2u, at, weight);
-    }
-}
-
-@compute @workgroup_size(64)
-fn splat_small(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let index = item_index(group, groups, lane, 64u);
-    if index >= arrayLength(&particles) {
-        return;
-    }
-    let sprite = sprite_of(index);
-    let extent = max(sprite.box.max - sprite.box.min + 1, vec2i(0));
-    let texels = extent.x * extent.y;
-    if texels == 0 || !can_touch(sprite) {
-        return;
-    }
-    if texels > LARGE_TEXELS {
-        large.indices[atomicAdd(&large.count, 1u)] = index;
-        return;
-    }
-    for (var y = sprite.box.min.y; y <= sprite.box.max.y; y++) {
-        for (var x = sprite.box.min.x; x <= sprite.box.max.x; x++) {
-            splat_texel(sprite, vec2i(x, y));
-        }
-    }
-}
-
-@compute @workgroup_size(64)
-fn splat_large(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let item = item_index(group, groups, 0u, 1u);
-    if item >= atomicLoad(&large.count) {
-        return;
-    }
-    let sprite = sprite_of(large.indices[item]);
-    let first = sprite.box.min + vec2i(i32(lane % 8u), i32(lane / 8u));
-    for (var y = first.y; y <= sprite.box.max.y; y += 8) {
-        for (var x = first.x; x <= sprite.box.max.x; x += 8) {
-            splat_texel(sprite, vec2i(x, y));
-        }
     }
 }

@@ -25,11 +25,9 @@ const LEAST_PX: f32 = 1.0;
 const SPREAD: f32 = 16.0 / (5.0 * 3.14159265);
 // Where sums stop growing: far below overflow, and far beyond opaque.
 const FULL: u32 = 0x3fffffffu;
-// Pixels in the bounding box above which a splat gets a workgroup of its own.
-const LARGE_PX: i32 = 1024;
 
 // The way of a droplet, view space.
-struct Streak {
+struct Sprite {
     start: vec3f,
     along: vec3f, // to its end
     radius: f32,
@@ -39,8 +37,12 @@ struct Streak {
     box: PixelBox,
 }
 
+fn sprite_count() -> u32 {
+    return arrayLength(&all);
+}
+
 // An empty box: out of sight.
-fn streak_of(index: u32) -> Streak {
+fn sprite_of(index: u32) -> Sprite {
     let droplet = all[index];
     let life_kind = unpack2x16float(droplet.life_kind);
     let center = (view.view_from_local * vec4f(droplet.place, 1.0)).xyz;
@@ -61,7 +63,7 @@ fn streak_of(index: u32) -> Streak {
     let is_foam = life_kind.y == KIND_FOAM;
     let lift = select(select(0.0, droplets.foam_lift, is_foam), droplets.bubble_lift, life_kind.y == KIND_BUBBLES);
     let density = droplets.density * alive * thinner * thinner;
-    return Streak(start, along, widest, density, lift, is_foam, box);
+    return Sprite(start, along, widest, density, lift, is_foam, box);
 }
 
 fn add(plane: u32, pixel: u32, value: f32) {
@@ -72,77 +74,40 @@ fn add(plane: u32, pixel: u32, value: f32) {
     }
 }
 
-fn splat_pixel(streak: Streak, at: vec2i) {
+// All: those behind the surface are seen through it.
+fn can_show(sprite: Sprite) -> bool {
+    return true;
+}
+
+fn draw(sprite: Sprite, at: vec2i) {
     let px = vec2f(at) + 0.5;
     let ray = pixel_ray(px);
     // Across the ray: its nearest distance to the way.
     let squared = dot(ray.direction, ray.direction);
-    let from_eye = streak.start - ray.origin;
+    let from_eye = sprite.start - ray.origin;
     let start = from_eye - ray.direction * (dot(from_eye, ray.direction) / squared);
-    let along = streak.along - ray.direction * (dot(streak.along, ray.direction) / squared);
+    let along = sprite.along - ray.direction * (dot(sprite.along, ray.direction) / squared);
     let length_squared = dot(along, along);
     let part = clamp(-dot(start, along) / max(length_squared, 1e-36), 0.0, 1.0);
     let offset = start + part * along;
-    let inside = max(1.0 - dot(offset, offset) / (streak.radius * streak.radius), 0.0);
-    let optical_depth = streak.density * inside * inside / (1.0 + SPREAD * sqrt(length_squared) / streak.radius);
+    let inside = max(1.0 - dot(offset, offset) / (sprite.radius * sprite.radius), 0.0);
+    let optical_depth = sprite.density * inside * inside / (1.0 + SPREAD * sqrt(length_squared) / sprite.radius);
     if optical_depth <= 0.0 {
         return;
     }
-    let depth = dot(from_eye + part * streak.along, ray.direction) / squared;
+    let depth = dot(from_eye + part * sprite.along, ray.direction) / squared;
     let index = u32(at.y) * view.size.x + u32(at.x);
     let near = nearness[index];
     let surface = select(3.4e38, depth_of(near), near > 0.0);
     // What is cut in two shows in part, so that nothing pops.
-    let diameter = 2.0 * streak.radius;
+    let diameter = 2.0 * sprite.radius;
     let shown = clamp(0.5 + (scene_depth_at(px) - depth) / diameter, 0.0, 1.0);
-    let before = clamp(0.5 + (surface - depth + streak.lift) / diameter, 0.0, 1.0);
+    let before = clamp(0.5 + (surface - depth + sprite.lift) / diameter, 0.0, 1.0);
     let behind = optical_depth * shown * (1.0 - before);
     let distance = clamp((depth - surface) / settings.radius, 0.0, FARTHEST);
     let in_front = optical_depth * shown * before * DEPTH_UNIT;
     add(BEFORE, index, in_front);
-    add(AFLOAT, index, select(0.0, in_front, streak.is_foam && near > 0.0));
+    add(AFLOAT, index, select(0.0, in_front, sprite.is_foam && near > 0.0));
     add(BEHIND, index, behind * DEPTH_UNIT);
     add(BEHIND_DISTANCE, index, behind * distance * DISTANCE_UNIT);
-}
-
-@compute @workgroup_size(64)
-fn splat_small(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let index = item_index(group, groups, lane, 64u);
-    if index >= arrayLength(&all) {
-        return;
-    }
-    let streak = streak_of(index);
-    let extent = max(streak.box.max - streak.box.min + 1, vec2i(0));
-    if extent.x * extent.y > LARGE_PX {
-        large.indices[atomicAdd(&large.count, 1u)] = index;
-        return;
-    }
-    for (var y = streak.box.min.y; y <= streak.box.max.y; y++) {
-        for (var x = streak.box.min.x; x <= streak.box.max.x; x++) {
-            splat_pixel(streak, vec2i(x, y));
-        }
-    }
-}
-
-@compute @workgroup_size(64)
-fn splat_large(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let item = item_index(group, groups, 0u, 1u);
-    if item >= atomicLoad(&large.count) {
-        return;
-    }
-    let streak = streak_of(large.indices[item]);
-    let first = streak.box.min + vec2i(i32(lane % 8u), i32(lane / 8u));
-    for (var y = first.y; y <= streak.box.max.y; y += 8) {
-        for (var x = first.x; x <= streak.box.max.x; x += 8) {
-            splat_pixel(streak, vec2i(x, y));
-        }
-    }
 }

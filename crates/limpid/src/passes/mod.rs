@@ -14,12 +14,12 @@ mod resolve_depth;
 mod shade;
 mod smooth;
 mod splat;
+mod surface;
 mod thickness;
 mod tiles;
 mod upsample;
 mod visible;
 
-pub(crate) use anisotropy::Ellipsoids;
 pub(crate) use composite::Composite;
 pub(crate) use curvature::Curvature;
 pub(crate) use detail::Detail;
@@ -41,7 +41,7 @@ pub(crate) use shade::{OpticsUniform, SceneViews, Shade, With};
 #[cfg(test)]
 pub(crate) use smooth::LengthsUniform;
 pub(crate) use smooth::{Segments, Smooth, records_bytes, relations_bytes};
-pub(crate) use splat::Splat;
+pub(crate) use surface::Surface;
 pub(crate) use thickness::{Thickness, level_count, pyramid_texels};
 pub(crate) use tiles::Tiles;
 pub(crate) use upsample::Upsample;

@@ -18,8 +18,6 @@ const SHARPNESS: f32 = 3.0;
 const RAW_SHARE: f32 = 0.00390625;
 // Counts of a weight of 1.
 const UNIT: f32 = 65536.0;
-// Pixels in the bounding box above which a splat gets a workgroup of its own.
-const LARGE_PX: i32 = 1024;
 
 // Weight at a squared distance from the centre, 1 at the rim.
 fn kernel_weight(squared: f32) -> f32 {
@@ -51,22 +49,33 @@ fn find_deepest(
     atomicStore(&sums[item], select(0u, bitcast<u32>(least), least < 3.4e38));
 }
 
-// The pixels that a particle can reach; none: out of sight.
-fn reached(ball: Ball) -> PixelBox {
+struct Sprite {
+    ball: Ball,
+    own: ParticlePaint,
+    box: PixelBox, // the pixels that the particle can reach; none: out of sight
+}
+
+fn sprite_count() -> u32 {
+    return arrayLength(&particles);
+}
+
+fn sprite_of(index: u32) -> Sprite {
+    let ball = ball_of(index);
     let wide = sphere(ball.center, REACH * ball.radius);
-    if !is_drawn(wide) {
-        return PixelBox(vec2i(0), vec2i(-1));
+    var box = PixelBox(vec2i(0), vec2i(-1));
+    if is_drawn(wide) {
+        box = texel_box(wide, 1.0, view.size);
     }
-    return texel_box(wide, 1.0, view.size);
+    return Sprite(ball, unpack_paint(paints[index], paint), box);
 }
 
 // Whether any of the surface within the box lies as deep as the particle reaches.
-fn can_touch(ball: Ball, box: PixelBox) -> bool {
-    let depth = max(-ball.center.z - REACH * ball.radius, view.near);
+fn can_show(sprite: Sprite) -> bool {
+    let depth = max(-sprite.ball.center.z - REACH * sprite.ball.radius, view.near);
     let least = nearness_of(depth);
     let across = (i32(view.size.x) + 7) / 8;
-    let first = box.min / 8;
-    let last = box.max / 8;
+    let first = sprite.box.min / 8;
+    let last = sprite.box.max / 8;
     for (var y = first.y; y <= last.y; y++) {
         for (var x = first.x; x <= last.x; x++) {
             let near = bitcast<f32>(atomicLoad(&sums[y * across + x]));
@@ -78,7 +87,8 @@ fn can_touch(ball: Ball, box: PixelBox) -> bool {
     return false;
 }
 
-fn splat_pixel(ball: Ball, own: ParticlePaint, pixel: vec2i) {
+fn draw(sprite: Sprite, pixel: vec2i) {
+    let ball = sprite.ball;
     let index = u32(pixel.y) * view.size.x + u32(pixel.x);
     let near = nearness[index];
     let raw_near = raw[index];
@@ -92,59 +102,5 @@ fn splat_pixel(ball: Ball, own: ParticlePaint, pixel: vec2i) {
     let weight = kernel_weight(dot(offset, offset) / rim_squared);
     let raw_weight = kernel_weight(dot(raw_offset, raw_offset) / rim_squared);
     let counts = u32(round(UNIT * (weight + RAW_SHARE * raw_weight)));
-    add_paint(paint.surface_first + index * paint.planes, counts, own);
-}
-
-@compute @workgroup_size(64)
-fn splat_small(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let index = item_index(group, groups, lane, 64u);
-    if index >= arrayLength(&particles) {
-        return;
-    }
-    let ball = ball_of(index);
-    let box = reached(ball);
-    let extent = max(box.max - box.min + 1, vec2i(0));
-    let pixels = extent.x * extent.y;
-    if pixels == 0 {
-        return;
-    }
-    if !can_touch(ball, box) {
-        return;
-    }
-    if pixels > LARGE_PX {
-        large.indices[atomicAdd(&large.count, 1u)] = index;
-        return;
-    }
-    let own = unpack_paint(paints[index], paint);
-    for (var y = box.min.y; y <= box.max.y; y++) {
-        for (var x = box.min.x; x <= box.max.x; x++) {
-            splat_pixel(ball, own, vec2i(x, y));
-        }
-    }
-}
-
-@compute @workgroup_size(64)
-fn splat_large(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let item = item_index(group, groups, 0u, 1u);
-    if item >= atomicLoad(&large.count) {
-        return;
-    }
-    let index = large.indices[item];
-    let ball = ball_of(index);
-    let box = reached(ball);
-    let own = unpack_paint(paints[index], paint);
-    let first = box.min + vec2i(i32(lane % 8u), i32(lane / 8u));
-    for (var y = first.y; y <= box.max.y; y += 8) {
-        for (var x = first.x; x <= box.max.x; x += 8) {
-            splat_pixel(ball, own, vec2i(x, y));
-        }
-    }
+    add_paint(paint.surface_first + index * paint.planes, counts, sprite.own);
 }

@@ -57,25 +57,8 @@ impl Splat {
         recorder.clear(&targets.covered);
     }
 
-    /// Adds a chunk of spheres to the nearest fluid of every pixel in `targets.raw`.
-    pub fn spheres(&mut self, recorder: &mut Recorder<'_>, chunk: &Chunk, targets: &Targets) {
-        // There is no list: all are drawn.
-        self.encode(recorder, chunk, &chunk.positions, &Grid::Items(chunk.count, 64), targets);
-    }
-
-    /// Adds those of a chunk of ellipsoids that are listed.
-    pub fn ellipsoids(&mut self, recorder: &mut Recorder<'_>, chunk: &Chunk, list: &List, targets: &Targets) {
-        self.encode(recorder, chunk, &list.items, &Grid::Indirect(&list.groups), targets);
-    }
-
-    fn encode(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        chunk: &Chunk,
-        list: &wgpu::Buffer,
-        grid: &Grid<'_>,
-        targets: &Targets,
-    ) {
+    /// Adds those of a chunk that are listed to the nearest fluid of every pixel in `targets.raw`.
+    pub fn encode(&mut self, recorder: &mut Recorder<'_>, chunk: &Chunk, list: &List, targets: &Targets) {
         let large = self.large_splats.reserve(recorder.device, 4 * (HEADER_WORDS + chunk.count));
         recorder.encoder.clear_buffer(large, 0, Some(4 * HEADER_WORDS));
         let kernels = if chunk.shapes.is_some() { &self.ellipsoids } else { &self.spheres };
@@ -84,14 +67,14 @@ impl Splat {
             positions,
             densities,
             shapes,
-            list.as_entire_binding(),
+            list.items.as_entire_binding(),
             targets.raw.as_entire_binding(),
             large.as_entire_binding(),
             targets.covered.as_entire_binding(),
             self.large_groups.as_entire_binding(),
         ];
         let name = "splat-depth";
-        recorder.run(name, &kernels.small, &resources[..7], grid);
+        recorder.run(name, &kernels.small, &resources[..7], &Grid::Indirect(&list.groups));
         recorder.run(name, &kernels.count, &resources, &Grid::Items(1, 1));
         recorder.run(name, &kernels.large, &resources[..7], &Grid::Indirect(&self.large_groups));
     }

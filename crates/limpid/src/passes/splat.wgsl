@@ -1,7 +1,7 @@
 // Depth splat: the nearest entry of every pixel's ray into any ball, by a checked atomicMax on the bits of its nearness.
 // Small splats take one lane each; large ones are listed and get a workgroup each, block by block of the picture.
 
-@group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the ellipsoids to draw; spheres: all, unused
+@group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the balls to draw: visible.wgsl's
 @group(1) @binding(4) var<storage, read_write> nearness: array<atomic<u32>>;
 @group(1) @binding(5) var<storage, read_write> large: LargeSplats;
 @group(1) @binding(6) var<storage, read_write> covered: array<atomic<u32>>; // covered.wgsl
@@ -46,20 +46,17 @@ fn splat_small(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let item = item_index(group, groups, lane, 64u);
-    if item >= select(arrayLength(&particles), list[0], ELLIPSOIDS) {
+    if item >= list[0] {
         return;
     }
-    var index = item;
-    if ELLIPSOIDS {
-        index = list[1u + item];
-    }
+    let index = list[1u + item];
     let ball = ball_of(index);
     if !is_drawn(ball) {
         return;
     }
     let box = texel_box(ball, 1.0, view.size);
     if ELLIPSOIDS {
-        // A ball that covers no pixel may still be a speck.
+        // Now that their shape is known. A ball that covers no pixel may still be a speck.
         if all(box.max >= box.min) && !can_show(ball, box) {
             return;
         }

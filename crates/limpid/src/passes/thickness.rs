@@ -1,7 +1,7 @@
 //! Thickness: `scene_range.wgsl`, `thickness.wgsl`, `thickness_collapse.wgsl` and `thickness_blur.wgsl`.
 
 use super::{ellipsoids_constant, module};
-use crate::gpu::{Grid, Kernel, Recorder, Slot};
+use crate::gpu::{Grid, Kernel, Module, Recorder, Slot};
 use crate::particles::Chunk;
 use crate::targets::{Targets, ThicknessImages};
 
@@ -43,11 +43,50 @@ pub(crate) struct Thickness {
     coarser_range: Kernel,
     /// The number of each level of a pyramid, as `scene_range.wgsl` binds it.
     level_numbers: Vec<wgpu::Buffer>,
+    in_scene: Kernels,
+    alone: Kernels,
+}
+
+/// For frames with the depth of a scene, or without.
+#[derive(Clone)]
+struct Kernels {
     spheres: Kernel,
     ellipsoids: Kernel,
     collapse: Kernel,
     blur_x: Kernel,
     blur_y: Kernel,
+}
+
+/// `in_scene.wgsl`'s override.
+fn in_scene_constant(in_scene: bool) -> (&'static str, f64) {
+    ("IN_SCENE", f64::from(u8::from(in_scene)))
+}
+
+impl Kernels {
+    fn new(
+        device: &wgpu::Device,
+        frame: &wgpu::BindGroupLayout,
+        [splat, collapse, blur]: &[Module; 3],
+        in_scene: bool,
+    ) -> Self {
+        let [read, write] = [Slot::Read, Slot::Write];
+        let constants = [in_scene_constant(in_scene)];
+        let splat = |ellipsoids| {
+            let constants = [in_scene_constant(in_scene), ellipsoids_constant(ellipsoids)];
+            let slots = [read, read, read, write, write, read, write];
+            Kernel::with_constants(device, frame, splat, "splat", &slots, &constants)
+        };
+        let blur =
+            |entry| Kernel::with_constants(device, frame, blur, entry, &[read, read, write, read, read], &constants);
+        let collapse_slots = [read, read, write, read, read, write];
+        Self {
+            spheres: splat(false),
+            ellipsoids: splat(true),
+            collapse: Kernel::with_constants(device, frame, collapse, "collapse", &collapse_slots, &constants),
+            blur_x: blur("blur_x"),
+            blur_y: blur("blur_y"),
+        }
+    }
 }
 
 impl Thickness {
@@ -58,6 +97,7 @@ impl Thickness {
             "shape.wgsl",
             "../ball.wgsl",
             "balls.wgsl",
+            "in_scene.wgsl",
             "thickness_levels.wgsl",
             "pyramid_box.wgsl",
             "thickness.wgsl"
@@ -67,29 +107,25 @@ impl Thickness {
         let collapse = module!(
             "thickness collapse",
             "../frame.wgsl",
+            "in_scene.wgsl",
             "thickness_levels.wgsl",
             "hidden.wgsl",
             "thickness_collapse.wgsl"
         );
-        let blur = module!("thickness blur", "../frame.wgsl", "hidden.wgsl", "thickness_blur.wgsl");
+        let blur = module!("thickness blur", "../frame.wgsl", "in_scene.wgsl", "hidden.wgsl", "thickness_blur.wgsl");
         let range_slots = [Slot::Depth, Slot::Write, Slot::Uniform];
-        let splat_slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write, Slot::Read, Slot::Write];
-        let collapse_slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Read, Slot::Read, Slot::Write];
-        let blur_slots = [Slot::Read, Slot::Read, Slot::Write, Slot::Read, Slot::Read];
-        let splat = |ellipsoids| {
-            let constants = [ellipsoids_constant(ellipsoids)];
-            Kernel::with_constants(device, frame, &splat, "splat", &splat_slots, &constants)
-        };
+        let modules = [splat, collapse, blur];
         Self {
             scene_range: Kernel::new(device, frame, &scene_range, "finest", &range_slots),
             coarser_range: Kernel::new(device, frame, &scene_range, "coarser", &range_slots),
             level_numbers: (0..MOST_LEVELS).map(|level| level_number(device, level)).collect(),
-            spheres: splat(false),
-            ellipsoids: splat(true),
-            collapse: Kernel::new(device, frame, &collapse, "collapse", &collapse_slots),
-            blur_x: Kernel::new(device, frame, &blur, "blur_x", &blur_slots),
-            blur_y: Kernel::new(device, frame, &blur, "blur_y", &blur_slots),
+            in_scene: Kernels::new(device, frame, &modules, true),
+            alone: Kernels::new(device, frame, &modules, false),
         }
+    }
+
+    fn kernels(&self, thickness: &ThicknessImages) -> &Kernels {
+        if thickness.in_scene { &self.in_scene } else { &self.alone }
     }
 
     /// Empties the sums, and takes the scene's depth for them.
@@ -110,8 +146,9 @@ impl Thickness {
     /// Adds the chords of particles, as far as the scene lets them be seen.
     pub fn splat(&self, recorder: &mut Recorder<'_>, particles: &[Chunk], thickness: &ThicknessImages) {
         let occlusion = &thickness.occlusion;
+        let kernels = self.kernels(thickness);
         for chunk in particles {
-            let kernel = if chunk.shapes.is_some() { &self.ellipsoids } else { &self.spheres };
+            let kernel = if chunk.shapes.is_some() { &kernels.ellipsoids } else { &kernels.spheres };
             let [positions, densities, shapes] = chunk.bindings();
             let resources = [
                 positions,
@@ -137,7 +174,7 @@ impl Thickness {
             occlusion.ranges.as_entire_binding(),
             occlusion.hidden.as_entire_binding(),
         ];
-        recorder.run(SPLAT, &self.collapse, &resources, &Grid::Image(thickness.size));
+        recorder.run(SPLAT, &self.kernels(thickness).collapse, &resources, &Grid::Image(thickness.size));
     }
 
     /// Writes the ranges of depth of the scene, level by level.
@@ -157,7 +194,8 @@ impl Thickness {
     /// Blurs the first of `targets.thickness.images` within the fluid.
     pub fn blur(&self, recorder: &mut Recorder<'_>, targets: &Targets) {
         let ThicknessImages { images: [first, second], occlusion, .. } = &targets.thickness;
-        for (kernel, input, output) in [(&self.blur_x, first, second), (&self.blur_y, second, first)] {
+        let kernels = self.kernels(&targets.thickness);
+        for (kernel, input, output) in [(&kernels.blur_x, first, second), (&kernels.blur_y, second, first)] {
             let resources = [
                 targets.raw.as_entire_binding(),
                 input.as_entire_binding(),

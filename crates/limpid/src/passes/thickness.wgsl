@@ -39,7 +39,6 @@ fn splat(
     let counts_per_world = 6.0 / (3.14159265 * scale * scale * scale * settings.thickness_unit);
     // All that is the same for the texels: ray_at's comment says why.
     let rays = pixel_rays();
-    let in_scene = settings.has_scene_depth != 0u;
     for (var y = box.min.y; y <= box.max.y; y++) {
         for (var x = box.min.x; x <= box.max.x; x++) {
             let at = (vec2f(f32(x), f32(y)) + 0.5) * place.px;
@@ -49,17 +48,22 @@ fn splat(
             }
             let texel = first + u32(y) * place.size.x + u32(x);
             let counts = u32(min(chord.length * counts_per_world, 1048576.0) + 0.5);
+            var range = vec2f(3.4e38);
+            if IN_SCENE {
+                range = ranges[texel];
+            }
             // Liquid never overlaps an obstacle, only its drawn balls do: a chord counts whole where its middle is free.
             let middle = 0.5 * (chord.enter + chord.leave);
-            let range = select(vec2f(3.4e38), ranges[texel], in_scene);
             if middle < range.x {
                 if atomicLoad(&sums[texel]) < FULL {
                     atomicAdd(&sums[texel], counts);
                 }
-            } else if middle >= range.y {
-                atomicOr(&between[texel], HIDDEN);
-            } else if (atomicLoad(&between[texel]) & ~HIDDEN) < BETWEEN_FULL {
-                atomicAdd(&between[texel], counts);
+            } else if IN_SCENE {
+                if middle >= range.y {
+                    atomicOr(&between[texel], HIDDEN);
+                } else if (atomicLoad(&between[texel]) & ~HIDDEN) < BETWEEN_FULL {
+                    atomicAdd(&between[texel], counts);
+                }
             }
         }
     }

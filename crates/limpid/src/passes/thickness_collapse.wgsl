@@ -19,7 +19,7 @@ fn level_texel(level: u32, start: u32, size: vec2u, at: vec2i, range: vec2f) -> 
     let texel = vec2u(clamp(at, vec2i(0), vec2i(size) - 1));
     let index = start + texel.y * size.x + texel.x;
     let free = f32(min(sums[index], 0x80000000u));
-    if settings.has_scene_depth == 0u {
+    if !IN_SCENE {
         return Counts(free, free, 0.0, 0.0);
     }
     let word = between[index];
@@ -55,7 +55,7 @@ fn collapse(@builtin(global_invocation_id) texel: vec3u) {
     }
     let index = texel.y * settings.thickness_size.x + texel.x;
     var range = vec2f(3.4e38);
-    if settings.has_scene_depth != 0u {
+    if IN_SCENE {
         range = ranges[index];
     }
     var total = Counts(0.0, 0.0, 0.0, 0.0);

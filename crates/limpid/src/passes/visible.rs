@@ -1,7 +1,6 @@
 //! Particles that can show: `visible.wgsl`.
 
 use super::module;
-use super::neighbours::Sorted;
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer};
 use crate::targets::Targets;
 
@@ -23,7 +22,7 @@ pub(crate) struct Visible {
 
 /// Which particles to work on, and how many workgroups of 64 they take.
 pub(crate) struct List {
-    /// u32: how many, then their places in the sorted order.
+    /// u32: how many, then their places among the particles.
     pub items: wgpu::Buffer,
     /// Indirect dispatch.
     pub groups: wgpu::Buffer,
@@ -57,44 +56,44 @@ impl Visible {
         }
     }
 
-    /// Lists the particles of a stage; the second goes by what the first has left in `targets.raw`.
+    /// Lists those of some particles (vec4: local position, radius) that are drawn in a stage; the second goes by what the first has left in `targets.raw`.
     pub fn encode(
         &mut self,
         recorder: &mut Recorder<'_>,
         grid: &wgpu::Buffer,
-        sorted: &Sorted,
+        (particles, count): (wgpu::BindingResource<'_>, u64),
         targets: &Targets,
         stage: Stage,
     ) -> List {
         let device = recorder.device;
         let tiles = targets.covered_tile_count();
         let fronts = self.fronts.reserve(device, 4 * LEVELS * tiles);
-        let items = self.items.reserve(device, 4 * (1 + sorted.count));
+        let items = self.items.reserve(device, 4 * (1 + count));
         let resources = [
             grid.as_entire_binding(),
-            sorted.particles(),
+            particles,
             fronts.as_entire_binding(),
             targets.raw.as_entire_binding(),
             targets.covered.as_entire_binding(),
             items.as_entire_binding(),
             self.groups.as_entire_binding(),
         ];
-        let particles = Grid::Items(sorted.count, 64);
+        let grid = Grid::Items(count, 64);
         recorder.encoder.clear_buffer(items, 0, Some(4));
         match stage {
             Stage::Fronts => {
                 recorder.clear(fronts);
-                recorder.run("anisotropy", &self.find_fronts, &resources, &particles);
-                recorder.run("anisotropy", &self.list_fronts, &resources, &particles);
+                recorder.run("visible", &self.find_fronts, &resources, &grid);
+                recorder.run("visible", &self.list_fronts, &resources, &grid);
             }
             Stage::Rest => {
-                recorder.run("anisotropy", &self.cover_tiles, &resources, &Grid::Items(tiles, 64));
+                recorder.run("visible", &self.cover_tiles, &resources, &Grid::Items(tiles, 64));
                 let wide_tiles = targets.widest_covered_tile_count();
-                recorder.run("anisotropy", &self.cover_wide_tiles, &resources, &Grid::Items(wide_tiles, 64));
-                recorder.run("anisotropy", &self.list_rest, &resources, &particles);
+                recorder.run("visible", &self.cover_wide_tiles, &resources, &Grid::Items(wide_tiles, 64));
+                recorder.run("visible", &self.list_rest, &resources, &grid);
             }
         }
-        recorder.run("anisotropy", &self.count_list, &resources, &Grid::Items(1, 1));
+        recorder.run("visible", &self.count_list, &resources, &Grid::Items(1, 1));
         List { items: items.clone(), groups: self.groups.clone() }
     }
 }

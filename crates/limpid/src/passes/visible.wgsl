@@ -1,10 +1,10 @@
-// Which particles can show: ellipsoids are worked out and splatted in two stages. First those whose centres lie about as
+// Which particles can show: they are splatted, and ellipsoids worked out, in two stages. First those whose centres lie about as
 // near as any other in their part of the picture: most of what will be seen. Then those that could still show somewhere:
 // whatever shape a particle takes, it stays within its bounds, and where every pixel of a tile is already nearer than
-// those, it adds nothing. The rest cannot change a bit of the depth image, and stay spheres in the thickness.
+// those, it adds nothing. The rest cannot change a bit of the depth image, and are spheres in the thickness.
 
 @group(1) @binding(0) var<uniform> grid: Grid;
-@group(1) @binding(1) var<storage, read> sorted: array<vec4f>; // neighbours.wgsl's
+@group(1) @binding(1) var<storage, read> particles: array<vec4f>; // local position, radius; 0: left out
 @group(1) @binding(2) var<storage, read_write> fronts: array<atomic<u32>>; // per level and tile: nearness of its nearest centre
 @group(1) @binding(3) var<storage, read> nearness: array<u32>; // bits, after the first stage
 @group(1) @binding(4) var<storage, read_write> covered: array<atomic<u32>>;
@@ -46,8 +46,8 @@ fn find_fronts(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let index = item_index(group, groups, lane, 64u);
-    if index < arrayLength(&sorted) {
-        let center = center_of(sorted[index]);
+    if index < arrayLength(&particles) {
+        let center = center_of(particles[index]);
         if center.seen {
             atomicMax(&fronts[center.front], bitcast<u32>(nearness_of(center.depth)));
         }
@@ -70,8 +70,8 @@ fn list_fronts(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let index = item_index(group, groups, lane, 64u);
-    if index < arrayLength(&sorted) {
-        if is_in_front(sorted[index]) {
+    if index < arrayLength(&particles) {
+        if is_in_front(particles[index]) {
             list.items[atomicAdd(&list.count, 1u)] = index;
         }
     }
@@ -159,8 +159,8 @@ fn list_rest(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let index = item_index(group, groups, lane, 64u);
-    if index < arrayLength(&sorted) {
-        let particle = sorted[index];
+    if index < arrayLength(&particles) {
+        let particle = particles[index];
         if particle.w > 0.0 && !is_in_front(particle) {
             if shape_can_show(particle) {
                 list.items[atomicAdd(&list.count, 1u)] = index;

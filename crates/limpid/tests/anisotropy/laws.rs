@@ -18,8 +18,7 @@ fn skipping_hidden_particles_changes_no_bit() {
     let mut fluid = Fluid::new();
     let mut check = |particles: &[Particle], view: &View, settings: Settings, most: f64| {
         let with = fluid.draw(particles, view, SIZE, &settings);
-        let anisotropy = Anisotropy { skip_hidden: false, ..settings.anisotropy };
-        let without = fluid.draw(particles, view, SIZE, &Settings { anisotropy, ..settings });
+        let without = fluid.draw(particles, view, SIZE, &Settings { skip_hidden: false, ..settings });
         assert!(bits(&with) == bits(&without));
         let worked_on = with.ellipsoids.iter().filter(|e| e.shape != DMat3::IDENTITY).count();
         assert!(worked_on as f64 <= most * particles.len() as f64, "{worked_on} of {} particles", particles.len());
@@ -29,7 +28,8 @@ fn skipping_hidden_particles_changes_no_bit() {
     let coarse = Settings { filter_scale: Scale::Quarter, ..base };
     let dam = marked(dam_break());
     let block = marked(slab(15, 20, 0.2));
-    for settings in [base, still, coarse] {
+    let coarse_spheres = Settings { filter_scale: Scale::Quarter, ..Settings::spheres() };
+    for settings in [base, still, coarse, Settings::spheres(), coarse_spheres] {
         check(&dam, &dam_view(), settings, 1.0);
         check(&dam, &looking(DVec3::new(-10.0, 30.0, 20.0), DVec3::ZERO), settings, 0.8);
         check(&dam, &looking(DVec3::new(0.0, 5.0, 0.0), DVec3::new(30.0, 2.0, 10.0)), settings, 0.8);
@@ -75,8 +75,8 @@ fn a_scene_far_from_the_origin_looks_the_same() {
 
 #[test]
 fn ellipsoids_keep_the_volume_of_their_spheres() {
-    let anisotropy = Anisotropy { skip_hidden: false, ..stretched().anisotropy };
-    let drawn = Fluid::new().draw(&marked(dam_break()), &dam_view(), SIZE, &Settings { anisotropy, ..stretched() });
+    let all = Settings { skip_hidden: false, ..stretched() };
+    let drawn = Fluid::new().draw(&marked(dam_break()), &dam_view(), SIZE, &all);
     for ellipsoid in drawn.ellipsoids {
         let volume = ellipsoid.shape.determinant();
         assert!((volume - 1.0).abs() < 0.01, "{volume}");

@@ -8,8 +8,8 @@ use limpid::{Anisotropy, Settings, View};
 
 /// Every ellipsoid: nothing is left out.
 fn all() -> Settings {
-    let anisotropy = Anisotropy { skip_hidden: false, center_smoothing: 0.9, ..stretched().anisotropy };
-    Settings { anisotropy, ..stretched() }
+    let anisotropy = Anisotropy { center_smoothing: 0.9, ..stretched().anisotropy };
+    Settings { anisotropy, skip_hidden: false, ..stretched() }
 }
 
 /// Compares every `step`th particle; `reach` is the farthest that any may look for neighbours.
