@@ -171,6 +171,11 @@ impl Viewer {
         }
     }
 
+    /// Whether the file of the frame that is to be shown is no use: another's picture would be a lie.
+    fn has_failed(&self) -> bool {
+        self.frames.as_ref().is_some_and(|frames| frames.has_failed(self.playback.index))
+    }
+
     /// Goes on in the sequence.
     fn play(&mut self) {
         let Some(frames) = &mut self.frames else { return };

@@ -92,6 +92,42 @@ mod tests {
     }
 
     #[test]
+    fn speeds_stretch_the_clock() {
+        for speed in SPEEDS {
+            let mut playback = Playback { speed, ..Playback::new(true, false) };
+            // Four seconds, in steps that all speeds can take.
+            let seen: Vec<usize> =
+                (0..40).map(|_| (playback.go_on(0.1, 1000, 10.0, |_| true), playback.index).1).collect();
+            let frames = 40.0 * speed;
+            assert!((*seen.last().unwrap() as f64 - frames).abs() <= 1.0, "{speed}: {seen:?}");
+            assert!(seen.is_sorted());
+        }
+    }
+
+    #[test]
+    fn a_loop_goes_on_at_the_first_frame() {
+        let mut playback = Playback::new(true, true);
+        let mut seen = |seconds: f64| (playback.go_on(seconds, 3, 10.0, |_| true), playback.index).1;
+        assert_eq!([0.11, 0.11, 0.11, 0.11].map(&mut seen), [1, 2, 0, 1]);
+        // More than once around.
+        assert_eq!(seen(0.51), 0);
+        assert!(playback.plays);
+    }
+
+    #[test]
+    fn steps_stay_within_the_sequence_and_stop() {
+        let mut playback = Playback::new(true, true);
+        let mut step = |by: isize| (playback.step(by, 3), playback.index, playback.plays);
+        assert_eq!(
+            [step(1), step(5), step(-1), step(-9)].map(|(_, index, plays)| (index, plays)),
+            [1, 2, 1, 0].map(|i| (i, false))
+        );
+        let mut empty = Playback::new(true, true);
+        empty.step(1, 0);
+        assert_eq!(empty.index, 0);
+    }
+
+    #[test]
     fn a_frame_that_is_not_read_yet_is_waited_for() {
         let mut playback = Playback::new(true, false);
         assert_eq!(playback.go_on(0.2, 4, 10.0, |index| index < 2), Some(2));

@@ -85,8 +85,9 @@ impl Times {
         let longest = self.passes.iter().map(|pass| pass.ms).fold(1e-3, f64::max);
         for pass in self.passes.iter().filter(|pass| pass.ms > 0.01 * longest) {
             ui.horizontal(|ui| {
-                let (rect, _) = ui.allocate_exact_size(vec2(48.0, 9.0), egui::Sense::hover());
-                let mut bar = rect;
+                let height = ui.text_style_height(&egui::TextStyle::Monospace);
+                let (rect, _) = ui.allocate_exact_size(vec2(48.0, height), egui::Sense::hover());
+                let mut bar = rect.shrink2(vec2(0.0, 0.5 * (height - 9.0)));
                 bar.set_width(rect.width() * (pass.ms / longest) as f32);
                 ui.painter().rect_filled(bar, 1.0, ui.visuals().selection.bg_fill);
                 ui.add(egui::Label::new(RichText::new(format!("{:6.2}", pass.ms)).small().monospace()));

@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    Atom, AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt, CreateWindowAux, EventMask, ImageFormat,
-    InputFocus, MapState, PropMode, SELECTION_NOTIFY_EVENT, SelectionNotifyEvent, SelectionRequestEvent, Window,
-    WindowClass,
+    Atom, AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConfigureWindowAux, ConnectionExt,
+    CreateWindowAux, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT,
+    MapState, PropMode, SELECTION_NOTIFY_EVENT, SelectionNotifyEvent, SelectionRequestEvent, Window, WindowClass,
 };
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
@@ -89,24 +89,42 @@ impl Desktop {
 
     /// Presses keys together, and lets them go after so long.
     pub fn press(&self, keys: &[u32], held: Duration) {
-        keys.iter().for_each(|key| self.key(*key, x11rb::protocol::xproto::KEY_PRESS_EVENT));
+        let codes: Vec<u8> = keys.iter().map(|key| self.code(*key)).collect();
+        codes.iter().for_each(|code| self.do_by_hand(KEY_PRESS_EVENT, *code, [0; 2]));
         std::thread::sleep(held);
-        keys.iter().rev().for_each(|key| self.key(*key, x11rb::protocol::xproto::KEY_RELEASE_EVENT));
+        codes.iter().rev().for_each(|code| self.do_by_hand(KEY_RELEASE_EVENT, *code, [0; 2]));
     }
 
-    /// By the extension XTEST, whose events no program can tell from those of a keyboard.
-    fn key(&self, key: u32, kind: u8) {
+    /// Moves the pointer to the first of these places, presses the left button, and lets it go at the last.
+    pub fn drag(&self, places: &[[i16; 2]]) {
+        let go = |place: [i16; 2]| {
+            self.do_by_hand(MOTION_NOTIFY_EVENT, 0, place);
+            std::thread::sleep(TAP);
+        };
+        go(places[0]);
+        self.do_by_hand(BUTTON_PRESS_EVENT, 1, [0; 2]);
+        places.iter().for_each(|place| go(*place));
+        self.do_by_hand(BUTTON_RELEASE_EVENT, 1, [0; 2]);
+    }
+
+    fn code(&self, key: u32) -> u8 {
         let setup = self.connection.setup();
         let (first, count) = (setup.min_keycode, setup.max_keycode - setup.min_keycode + 1);
         let mapping = self.connection.get_keyboard_mapping(first, count).unwrap().reply().unwrap();
         let place = mapping.keysyms.chunks(mapping.keysyms_per_keycode.into()).position(|keysyms| keysyms[0] == key);
-        let keycode = first + u8::try_from(place.expect("the keyboard has it")).unwrap();
+        first + u8::try_from(place.expect("the keyboard has it")).unwrap()
+    }
+
+    /// By the extension XTEST, whose events no program can tell from those of keyboard and mouse.
+    fn do_by_hand(&self, kind: u8, detail: u8, place: [i16; 2]) {
         let extension = self.connection.extension_information("XTEST").unwrap().expect("the server has XTEST");
-        // FakeInput: opcodes, length in words, kind, keycode; no delay, no place, the first keyboard.
+        // FakeInput: opcodes, length in words, kind, keycode or button, a place on the screen; at once.
         let mut request = [0; 36];
         (request[0], request[1]) = (extension.major_opcode, 2);
         request[2..4].copy_from_slice(&9_u16.to_ne_bytes());
-        (request[4], request[5]) = (kind, keycode);
+        (request[4], request[5]) = (kind, detail);
+        request[24..26].copy_from_slice(&place[0].to_ne_bytes());
+        request[26..28].copy_from_slice(&place[1].to_ne_bytes());
         let sent = self.connection.send_request_without_reply(&[std::io::IoSlice::new(&request)], Vec::new());
         sent.unwrap().check().unwrap();
     }

@@ -58,7 +58,7 @@ impl Viewer {
                 self.compare(compares);
             }
             ui.toggle_value(&mut self.shows_times, "Timings");
-            ui.toggle_value(&mut self.shows_panel, "Settings").on_hover_text("Tab");
+            ui.toggle_value(&mut self.shows_panel, "Settings").on_hover_text("H");
             let is_dark = ui.visuals().dark_mode;
             if ui.button(if is_dark { "Light" } else { "Dark" }).on_hover_text("Theme").clicked() {
                 ui.ctx().set_theme(if is_dark { egui::Theme::Light } else { egui::Theme::Dark });

@@ -68,6 +68,10 @@ impl Viewer {
     /// Draws what has changed.
     pub(super) fn draw(&mut self, ctx: &egui::Context) {
         self.furnish();
+        if self.wants_picture && (self.frames.is_none() || self.has_failed()) {
+            (self.wants_picture, self.is_for_script) = (false, false);
+            self.complain("there is no picture to save: no particles are shown".into());
+        }
         let options = self.shot_options();
         let Some(frames) = &self.frames else { return };
         let (Some(set), Some(frame)) =

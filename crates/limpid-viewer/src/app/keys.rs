@@ -31,7 +31,7 @@ impl Viewer {
         if pressed(Key::F) || pressed(Key::Home) {
             self.frame_all();
         }
-        if pressed(Key::Tab) {
+        if pressed(Key::H) {
             self.shows_panel = !self.shows_panel;
         }
         if with(Key::Z, |modifiers| modifiers.command && !modifiers.shift) {

@@ -26,6 +26,14 @@ impl Viewer {
         self.move_camera(ui, &response, rect);
         self.draw(ui.ctx());
         self.receive_pictures(ui.ctx());
+        if !self.has_failed() {
+            self.paint(ui, room, rect);
+        }
+        self.over(ui, room);
+    }
+
+    /// The picture in its place, or two of them.
+    fn paint(&mut self, ui: &mut Ui, room: Rect, rect: Rect) {
         let shows_buffer = self.book.options().show.is_some();
         let painter = ui.painter_at(room);
         if self.book.options().background() == Background::Transparent && !shows_buffer {
@@ -37,7 +45,6 @@ impl Viewer {
         } else {
             compare::paint(ui.ctx(), &painter, &mut self.picture, rect, 0.0..1.0, shows_buffer);
         }
-        self.over(ui, room);
     }
 
     /// `rect` is the place of the picture.
@@ -104,7 +111,7 @@ impl Viewer {
         match &self.frames {
             None => Some("Drop particle files here"),
             Some(_) if is_hovered => Some("Drop particle files here"),
-            Some(frames) if frames.has_failed(self.playback.index) => None,
+            Some(_) if self.has_failed() => None,
             Some(frames) if frames.ready(self.playback.index).is_none() => Some("Reading…"),
             Some(_) if self.problems.is_empty() && !self.has_seen_picture() => Some("Drawing the first picture…"),
             Some(_) => None,

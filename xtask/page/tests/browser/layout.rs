@@ -6,6 +6,10 @@ pub const ROOM_WIDTH: f64 = 689.0;
 pub const MIDDLE: (f64, f64) = (340.0, 400.0);
 /// The timeline's ends.
 pub const TIMELINE: [(f64, f64); 2] = [(234.0, 733.0), (925.0, 733.0)];
+/// Beside it, and the first of the speeds to choose from.
+pub const LOOP: (f64, f64) = (140.0, 733.0);
+pub const SPEED: (f64, f64) = (195.0, 733.0);
+pub const SLOWEST: (f64, f64) = (200.0, 592.0);
 /// The slider of the drawn radius: where its handle is by default, and farther right.
 pub const SPLAT_SCALE: [(f64, f64); 2] = [(878.0, 116.0), (910.0, 116.0)];
 /// Menu and its entries.

@@ -47,6 +47,8 @@ fn the_page_draws_what_the_program_draws_and_does_what_its_users_do() {
     menus::two_settings_can_be_compared(&mut page);
     transport::playback_goes_on(&mut page);
     transport::frames_can_be_scrubbed(&mut page);
+    transport::playback_ends_or_begins_again(&mut page);
+    transport::playback_can_be_slow(&mut page);
     transport::a_hidden_tab_plays_on_when_it_is_shown_again(&mut page);
     camera::the_camera_goes_by_mouse_and_keys(&mut page);
     files::files_can_be_dropped(&mut page);
