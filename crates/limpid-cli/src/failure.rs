@@ -54,9 +54,12 @@ pub enum Failure {
     /// Standard output cannot be written.
     #[error("standard output cannot be written ({0})")]
     Stdout(io::Error),
-    /// The viewer's window cannot be shown, or not any more.
+    /// The viewer's window cannot be shown.
     #[error("{0}")]
     Window(String),
+    /// The device was lost.
+    #[error("{0}")]
+    Lost(String),
     /// Values that cannot be turned into JSON or TOML.
     #[error("cannot be written as text: {0}")]
     Text(String),

@@ -7,6 +7,7 @@ mod console;
 mod failure;
 mod info;
 mod looks;
+mod lost;
 mod quiet_driver;
 mod render;
 mod sample;

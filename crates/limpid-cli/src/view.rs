@@ -1,6 +1,7 @@
 //! `limpid view`: the interactive viewer.
 
 use crate::failure::Failure;
+use crate::lost;
 use clap::Args;
 use limpid_shot::{Options, config};
 use limpid_viewer::Opening;
@@ -38,11 +39,7 @@ pub fn run(arguments: Box<ViewArguments>) -> Result<(), Failure> {
         sequence,
         plays: play,
         screenshot,
-        lost: |reason| {
-            let failure = Failure::Window(reason.to_owned());
-            failure.report();
-            std::process::exit(failure.exit_code().into())
-        },
+        lost: lost::end,
     })
     .map_err(Failure::Window)
 }

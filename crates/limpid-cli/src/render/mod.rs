@@ -8,9 +8,10 @@ mod timings;
 
 use crate::console;
 use crate::failure::Failure;
+use crate::lost;
 use crate::write::{write_aov, write_layers, write_picture};
 use clap::Args;
-use limpid_headless::{Aov, Background, Gpu, Offscreen, Shot, pipeline_folder};
+use limpid_headless::{Aov, Background, Offscreen, Shot, pipeline_folder};
 use limpid_shot::environment;
 use limpid_shot::{Diffuse, FrameParticles, Inputs, Legend, Living, Options, Paints, Props, Stage, Survey, config};
 use outputs::{FrameOutputs, Outputs};
@@ -59,7 +60,7 @@ pub fn run(arguments: Box<RenderArguments>, started: Instant) -> Result<(), Fail
     let merged = partial::merged(&arguments.partials)?;
     let props = Props::load(&options, &sequence.frames)?;
     let map = options.environment.as_deref().map(|path| environment::read(Path::new(path))).transpose()?;
-    let mut offscreen = Offscreen::new(Gpu::open(options.adapter.as_deref())?)?;
+    let mut offscreen = Offscreen::new(lost::open(options.adapter.as_deref())?)?;
     if let Some(folder) = pipeline_folder() {
         offscreen.keep_pipelines_in(&folder);
     }

@@ -17,14 +17,19 @@ pub struct Viewer<'a> {
 
 impl<'a> Viewer<'a> {
     pub fn open(desktop: &'a Desktop, folder: &'a Folder, arguments: &[&str]) -> Self {
-        Self::open_with(desktop, folder, arguments, &[])
+        Self::open_with(desktop, folder, arguments, Vec::new())
     }
 
     /// The same with variables of the environment.
-    pub fn open_with(desktop: &'a Desktop, folder: &'a Folder, arguments: &[&str], env: &[(&str, &str)]) -> Self {
+    pub fn open_with(
+        desktop: &'a Desktop,
+        folder: &'a Folder,
+        arguments: &[&str],
+        variables: Vec<(&str, String)>,
+    ) -> Self {
         let mut command = folder.command(&[&["view"], arguments].concat());
         desktop.invite(&mut command);
-        let process = command.envs(env.iter().copied()).stderr(Stdio::piped()).spawn().unwrap();
+        let process = command.envs(variables).stderr(Stdio::piped()).spawn().unwrap();
         Self { process, window: desktop.window(), desktop, folder }
     }
 
