@@ -87,6 +87,8 @@ mod settings;
 mod shadow;
 mod targets;
 mod view;
+#[cfg(test)]
+mod wgsl_tests;
 
 pub use glam;
 pub use wgpu;

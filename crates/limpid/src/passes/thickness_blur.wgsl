@@ -25,7 +25,7 @@ fn nearest_in(texel: vec2u) -> f32 {
 
 // Whether two texels' liquid ends alike: neither is cut off by the scene, or both are where it is equally far.
 fn ends_alike(index: u32, value: f32, other: u32, other_value: f32) -> bool {
-    if !IN_SCENE || value > 0.0 && other_value > 0.0 {
+    if !IN_SCENE || (value > 0.0 && other_value > 0.0) {
         return true;
     }
     if !is_cut(value, index) && !is_cut(other_value, other) {
