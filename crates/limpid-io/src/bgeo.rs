@@ -8,7 +8,7 @@
 use crate::Attribute;
 use crate::error::{Fault, broken, quote};
 use crate::input::Input;
-use crate::raw::{Positions, Raw};
+use crate::raw::Raw;
 use crate::values::{Encoding, Scalar, Slot};
 
 pub(crate) const MAGIC: &[u8] = b"Bgeo";
@@ -41,9 +41,8 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     }
 
     let position = Slot { scalar: Scalar::F32, components: 3, offset: 0 };
-    let wanted: Vec<Slot> = [position].into_iter().chain(slots.iter().map(|(_, slot)| *slot)).collect();
-    let mut arrays = input.records(header.points, size, &wanted, Encoding::Big)?;
-    let positions = Positions::from_triples(arrays.remove(0));
+    let others: Vec<Slot> = slots.iter().map(|(_, slot)| *slot).collect();
+    let (positions, arrays) = input.particle_records(header.points, size, position, &others, Encoding::Big)?;
     if header.points_only && (input.bytes()? != END || !input.at_end()?) {
         return broken!("the end mark after its {} points is missing", header.points);
     }

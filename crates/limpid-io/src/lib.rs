@@ -8,6 +8,7 @@ mod bare;
 mod bgeo;
 mod error;
 mod format;
+mod fresh;
 mod input;
 mod join;
 mod json;

@@ -219,21 +219,26 @@ fn read_records(
         let vector = names.and_then(names::vector_of);
         let is_position = names == Some(["x", "y", "z"]) && position.is_none();
         let components = if is_position || vector.is_some() { 3 } else { 1 };
+        let slot = Slot { scalar: first.scalar, components, offset: size };
         if is_position {
-            position = Some(columns.len());
+            position = Some(slot);
+        } else {
+            columns.push((vector.unwrap_or_else(|| first.name.clone()), slot));
         }
-        let name = vector.unwrap_or_else(|| first.name.clone());
-        columns.push((name, Slot { scalar: first.scalar, components, offset: size }));
         size += components * first.scalar.size();
         rest = &rest[components..];
     }
     let slots: Vec<Slot> = columns.iter().map(|(_, slot)| *slot).collect();
-    let arrays = input.records(count, size, &slots, encoding)?;
+    let (positions, arrays) = match position {
+        Some(position) => {
+            let (positions, arrays) = input.particle_records(count, size, position, &slots, encoding)?;
+            (Some(positions), arrays)
+        }
+        None => (None, input.records(count, size, &slots, encoding)?),
+    };
     let attribute =
         |((name, slot), values): ((String, Slot), _)| Attribute { name, components: slot.components, values };
-    let mut attributes: Vec<Attribute> = columns.into_iter().zip(arrays).map(attribute).collect();
-    let positions = position.map(|index| Positions::from_triples(attributes.remove(index).values));
-    Ok((positions, attributes))
+    Ok((positions, columns.into_iter().zip(arrays).map(attribute).collect()))
 }
 
 fn read_scalar(input: &mut Input, encoding: Encoding, scalar: Scalar, array: &mut Values) -> Result<(), Fault> {

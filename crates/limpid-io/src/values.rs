@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use bytemuck::Pod;
 
 use crate::error::{Fault, broken};
+use crate::fresh::{self, Fresh, Unwritten};
 use crate::input::{self, Input, parse};
 use crate::raw::{self, Positions};
 
@@ -71,19 +72,6 @@ impl Values {
             Self::I64(array) => input::grow(array, more, most),
             Self::F32(array) => input::grow(array, more, most),
             Self::F64(array) => input::grow(array, more, most),
-        }
-    }
-
-    /// Adds zeros, of at most so many numbers in all.
-    pub(crate) fn extend_with_zeros(&mut self, more: usize, most: usize) {
-        self.grow(more, most);
-        let count = self.len() + more;
-        match self {
-            Self::U8(array) => array.resize(count, 0),
-            Self::I32(array) => array.resize(count, 0),
-            Self::I64(array) => array.resize(count, 0),
-            Self::F32(array) => array.resize(count, 0.0),
-            Self::F64(array) => array.resize(count, 0.0),
         }
     }
 
@@ -175,11 +163,11 @@ impl Scalar {
     /// So many zeros.
     pub fn zeros(self, count: usize) -> Values {
         match self.array(0) {
-            Values::U8(_) => Values::U8(vec![0; count]),
-            Values::I32(_) => Values::I32(vec![0; count]),
-            Values::I64(_) => Values::I64(vec![0; count]),
-            Values::F32(_) => Values::F32(vec![0.0; count]),
-            Values::F64(_) => Values::F64(vec![0.0; count]),
+            Values::U8(_) => Values::U8(fresh::zeros(count)),
+            Values::I32(_) => Values::I32(fresh::zeros(count)),
+            Values::I64(_) => Values::I64(fresh::zeros(count)),
+            Values::F32(_) => Values::F32(fresh::zeros(count)),
+            Values::F64(_) => Values::F64(fresh::zeros(count)),
         }
     }
 
@@ -258,31 +246,38 @@ impl Input<'_> {
         Ok(Positions::from_triples(Values::F32(numbers)).checked(are_finite.into_inner()))
     }
 
-    /// Numbers whose type is that of the file, but for the order of their bytes: read to where they stay, and each piece handed to
-    /// `finish` while it is near.
+    /// Numbers whose type is that of the file, but for the order of their bytes: each piece is handed to `finish` while it is near, and
+    /// then goes to where it stays.
     fn array<T: Pod + Send>(&mut self, count: u64, finish: impl Fn(&mut [T]) + Sync) -> Result<Vec<T>, Fault> {
         let known = self.claim(count, size_of::<T>())?;
-        let read = |from: &mut dyn Read, numbers: &mut [T]| {
-            for piece in numbers.chunks_mut(PIECE / size_of::<T>()) {
-                from.read_exact(bytemuck::cast_slice_mut(piece))?;
-                finish(piece);
-            }
+        let per_piece = PIECE / size_of::<T>();
+        let read = |from: &mut dyn Read, piece: &mut [T]| -> Result<(), Fault> {
+            from.read_exact(bytemuck::cast_slice_mut(piece))?;
+            finish(piece);
             Ok(())
         };
         if self.is_exact() {
-            // Memory that is zero to begin with costs nothing until it is written to.
-            let mut array = vec![T::zeroed(); known];
-            let shares = array.chunks_mut(SHARE / size_of::<T>());
-            self.parts(shares.map(|share| (size_of_val(share) as u64, share)).collect(), read)?;
-            return Ok(array);
+            let mut array = Fresh::new(known);
+            let shares = array.unwritten().chunks(SHARE / size_of::<T>());
+            let shares = shares.map(|share| ((share.len() * size_of::<T>()) as u64, share)).collect();
+            self.parts(shares, |from, share: Unwritten<T>| {
+                let mut block = vec![T::zeroed(); share.len().min(per_piece)];
+                share.chunks(per_piece).try_for_each(|part| {
+                    let piece = &mut block[..part.len()];
+                    read(from, piece)?;
+                    part.write(piece);
+                    Ok(())
+                })
+            })?;
+            return Ok(array.into_vec());
         }
+        let mut block = vec![T::zeroed(); (count as usize).min(per_piece)];
         let mut array = Vec::new();
         while array.len() < count as usize {
-            let done = array.len();
-            let more = (count as usize - done).min(PIECE / size_of::<T>());
+            let more = (count as usize - array.len()).min(per_piece);
+            read(self, &mut block[..more])?;
             input::grow(&mut array, more, count as usize);
-            array.resize(done + more, T::zeroed());
-            read(self, &mut array[done..])?;
+            array.extend_from_slice(&block[..more]);
         }
         Ok(array)
     }

@@ -1,10 +1,13 @@
 //! Columns of numbers out of records of one size.
 
 use std::io::Read;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::{Encoding, PIECE, SHARE, Scalar, Values};
 use crate::error::Fault;
+use crate::fresh::{Fresh, Unwritten};
 use crate::input::Input;
+use crate::raw::{self, Positions};
 
 /// Where a value lies in each fixed-size record of a file.
 #[derive(Clone, Copy, Debug)]
@@ -14,13 +17,22 @@ pub(crate) struct Slot {
     pub offset: usize,
 }
 
+/// The numbers of a slot, to be written.
+enum Column {
+    U8(Fresh<u8>),
+    I32(Fresh<i32>),
+    I64(Fresh<i64>),
+    F32(Fresh<f32>),
+    F64(Fresh<f64>),
+}
+
 /// A part of a column.
 enum Part<'a> {
-    U8(&'a mut [u8]),
-    I32(&'a mut [i32]),
-    I64(&'a mut [i64]),
-    F32(&'a mut [f32]),
-    F64(&'a mut [f64]),
+    U8(Unwritten<'a, u8>),
+    I32(Unwritten<'a, i32>),
+    I64(Unwritten<'a, i64>),
+    F32(Unwritten<'a, f32>),
+    F64(Unwritten<'a, f64>),
 }
 
 impl Input<'_> {
@@ -32,6 +44,39 @@ impl Input<'_> {
         slots: &[Slot],
         encoding: Encoding,
     ) -> Result<Vec<Values>, Fault> {
+        self.record_columns(count, size, slots, encoding, |_| {})
+    }
+
+    /// The same where one slot is that of the positions.
+    pub fn particle_records(
+        &mut self,
+        count: u64,
+        size: usize,
+        position: Slot,
+        others: &[Slot],
+        encoding: Encoding,
+    ) -> Result<(Positions, Vec<Values>), Fault> {
+        let slots: Vec<Slot> = [position].into_iter().chain(others.iter().copied()).collect();
+        // Looked at while they are near, which saves a way through memory.
+        let are_finite = AtomicBool::new(true);
+        let mut columns = self.record_columns(count, size, &slots, encoding, |numbers| {
+            if !numbers.is_some_and(raw::all_finite) {
+                are_finite.store(false, Ordering::Relaxed);
+            }
+        })?;
+        let positions = Positions::from_triples(columns.remove(0));
+        Ok((positions.checked(are_finite.into_inner()), columns))
+    }
+
+    /// The columns, and numbers of the first handed to `look` while they are near, if they are f32.
+    fn record_columns(
+        &mut self,
+        count: u64,
+        size: usize,
+        slots: &[Slot],
+        encoding: Encoding,
+        look: impl Fn(Option<&[f32]>) + Sync,
+    ) -> Result<Vec<Values>, Fault> {
         let known = self.claim(count, size)?;
         let per_piece = (PIECE / size).max(1);
         let read = |from: &mut dyn Read, (rows, mut parts): (usize, Vec<Part>)| {
@@ -41,17 +86,22 @@ impl Input<'_> {
                 let piece = per_piece.min(rows - done);
                 let records = &mut block[..piece * size];
                 from.read_exact(records)?;
-                for (part, slot) in parts.iter_mut().zip(slots) {
-                    part.take(piece * slot.components).fill(records, size, *slot, encoding);
+                for (index, (part, slot)) in parts.iter_mut().zip(slots).enumerate() {
+                    let floats = part.take(piece * slot.components).fill(records, size, *slot, encoding);
+                    if index == 0 {
+                        look(floats);
+                    }
                 }
                 done += piece;
             }
             Ok(())
         };
+        let columns_of = |rows: usize| -> Vec<Column> {
+            slots.iter().map(|slot| Column::new(slot.scalar, rows * slot.components)).collect()
+        };
         if self.is_exact() {
-            let mut columns: Vec<Values> =
-                slots.iter().map(|slot| slot.scalar.zeros(known * slot.components)).collect();
-            let mut parts: Vec<Part> = columns.iter_mut().map(|column| Part::of(column, 0)).collect();
+            let mut fresh = columns_of(known);
+            let mut parts: Vec<Part> = fresh.iter_mut().map(Column::unwritten).collect();
             let per_share = (SHARE / size).max(1);
             let shares = (0..known).step_by(per_share).map(|first| {
                 let rows = per_share.min(known - first);
@@ -59,55 +109,70 @@ impl Input<'_> {
                 ((rows * size) as u64, (rows, parts.collect()))
             });
             self.parts(shares.collect(), read)?;
-            return Ok(columns);
+            return Ok(fresh.into_iter().map(Column::into_values).collect());
         }
         let mut columns: Vec<Values> = slots.iter().map(|slot| slot.scalar.array(known * slot.components)).collect();
         let mut done = 0;
         while done < count as usize {
             let rows = per_piece.min(count as usize - done);
-            let tails = columns.iter_mut().zip(slots).map(|(column, slot)| {
-                column.extend_with_zeros(rows * slot.components, count as usize * slot.components);
-                Part::of(column, done * slot.components)
-            });
-            read(self, (rows, tails.collect()))?;
+            let mut piece = columns_of(rows);
+            read(self, (rows, piece.iter_mut().map(Column::unwritten).collect()))?;
+            for ((column, piece), slot) in columns.iter_mut().zip(piece).zip(slots) {
+                column.grow(rows * slot.components, count as usize * slot.components);
+                column.append(piece.into_values())?;
+            }
             done += rows;
         }
         Ok(columns)
     }
 }
 
-impl<'a> Part<'a> {
-    /// A column from one of its numbers on.
-    fn of(values: &'a mut Values, first: usize) -> Self {
-        match values {
-            Values::U8(array) => Self::U8(&mut array[first..]),
-            Values::I32(array) => Self::I32(&mut array[first..]),
-            Values::I64(array) => Self::I64(&mut array[first..]),
-            Values::F32(array) => Self::F32(&mut array[first..]),
-            Values::F64(array) => Self::F64(&mut array[first..]),
+impl Column {
+    fn new(scalar: Scalar, count: usize) -> Self {
+        match scalar.array(0) {
+            Values::U8(_) => Self::U8(Fresh::new(count)),
+            Values::I32(_) => Self::I32(Fresh::new(count)),
+            Values::I64(_) => Self::I64(Fresh::new(count)),
+            Values::F32(_) => Self::F32(Fresh::new(count)),
+            Values::F64(_) => Self::F64(Fresh::new(count)),
         }
     }
 
-    /// Takes so many numbers from its beginning.
-    fn take(&mut self, count: usize) -> Part<'a> {
-        macro_rules! take {
-            ($kind:path, $array:expr) => {{
-                let (first, rest) = std::mem::take($array).split_at_mut(count);
-                *$array = rest;
-                $kind(first)
-            }};
-        }
+    fn unwritten(&mut self) -> Part<'_> {
         match self {
-            Self::U8(array) => take!(Part::U8, array),
-            Self::I32(array) => take!(Part::I32, array),
-            Self::I64(array) => take!(Part::I64, array),
-            Self::F32(array) => take!(Part::F32, array),
-            Self::F64(array) => take!(Part::F64, array),
+            Self::U8(array) => Part::U8(array.unwritten()),
+            Self::I32(array) => Part::I32(array.unwritten()),
+            Self::I64(array) => Part::I64(array.unwritten()),
+            Self::F32(array) => Part::F32(array.unwritten()),
+            Self::F64(array) => Part::F64(array.unwritten()),
         }
     }
 
-    /// Fills it with the values at `slot` of each record of `size` bytes.
-    fn fill(self, records: &[u8], size: usize, slot: Slot, encoding: Encoding) {
+    fn into_values(self) -> Values {
+        match self {
+            Self::U8(array) => Values::U8(array.into_vec()),
+            Self::I32(array) => Values::I32(array.into_vec()),
+            Self::I64(array) => Values::I64(array.into_vec()),
+            Self::F32(array) => Values::F32(array.into_vec()),
+            Self::F64(array) => Values::F64(array.into_vec()),
+        }
+    }
+}
+
+impl<'a> Part<'a> {
+    /// Takes so many numbers from its beginning.
+    fn take(&mut self, count: usize) -> Self {
+        match self {
+            Self::U8(array) => Self::U8(array.take(count)),
+            Self::I32(array) => Self::I32(array.take(count)),
+            Self::I64(array) => Self::I64(array.take(count)),
+            Self::F32(array) => Self::F32(array.take(count)),
+            Self::F64(array) => Self::F64(array.take(count)),
+        }
+    }
+
+    /// Fills it with the values at `slot` of each record of `size` bytes, and returns those that are f32.
+    fn fill(self, records: &[u8], size: usize, slot: Slot, encoding: Encoding) -> Option<&'a [f32]> {
         let big = encoding == Encoding::Big;
         macro_rules! fill {
             ($array:expr, $from:ty) => {{
@@ -115,38 +180,30 @@ impl<'a> Part<'a> {
                 let number = |&bytes: &[u8; SIZE]| {
                     (if big { <$from>::from_be_bytes(bytes) } else { <$from>::from_le_bytes(bytes) }) as _
                 };
-                if slot.components * SIZE == size {
-                    $array.iter_mut().zip(records.as_chunks().0).for_each(|(to, bytes)| *to = number(bytes));
-                    return;
-                }
-                let records = records.chunks_exact(size).map(|record| record[slot.offset..].as_chunks().0);
+                let rows = records.chunks_exact(size).map(|record| &record[slot.offset..][..slot.components * SIZE]);
                 // By far the most frequent widths: what is known to the compiler is twice as fast.
                 match slot.components {
-                    1 => $array.iter_mut().zip(records).for_each(|(to, numbers)| *to = number(&numbers[0])),
-                    3 => {
-                        for (row, numbers) in $array.as_chunks_mut::<3>().0.iter_mut().zip(records) {
-                            *row = [0, 1, 2].map(|k| number(&numbers[k]));
-                        }
+                    components if components * SIZE == size => {
+                        $array.write_rows(records.as_chunks().0.iter().map(|bytes| [number(bytes)]))
                     }
-                    components => {
-                        for (row, numbers) in $array.chunks_exact_mut(components.max(1)).zip(records) {
-                            row.iter_mut().zip(numbers).for_each(|(to, bytes)| *to = number(bytes));
-                        }
-                    }
+                    1 => $array.write_rows(rows.map(|row| [number(&row.as_chunks().0[0])])),
+                    3 => $array.write_rows(rows.map(|row| [0, 1, 2].map(|k| number(&row.as_chunks().0[k])))),
+                    _ => $array.write_rows(rows.flat_map(|row| row.as_chunks().0).map(|bytes| [number(bytes)])),
                 }
             }};
         }
         match (self, slot.scalar) {
-            (Self::U8(array), _) => fill!(array, u8),
-            (Self::I32(array), Scalar::I8) => fill!(array, i8),
-            (Self::I32(array), Scalar::I16) => fill!(array, i16),
-            (Self::I32(array), Scalar::U16) => fill!(array, u16),
-            (Self::I32(array), _) => fill!(array, i32),
-            (Self::I64(array), Scalar::U32) => fill!(array, u32),
-            (Self::I64(array), Scalar::U64) => fill!(array, u64),
-            (Self::I64(array), _) => fill!(array, i64),
-            (Self::F32(array), _) => fill!(array, f32),
-            (Self::F64(array), _) => fill!(array, f64),
+            (Self::F32(array), _) => return Some(fill!(array, f32)),
+            (Self::F64(array), _) => drop(fill!(array, f64)),
+            (Self::U8(array), _) => drop(fill!(array, u8)),
+            (Self::I32(array), Scalar::I8) => drop(fill!(array, i8)),
+            (Self::I32(array), Scalar::I16) => drop(fill!(array, i16)),
+            (Self::I32(array), Scalar::U16) => drop(fill!(array, u16)),
+            (Self::I32(array), _) => drop(fill!(array, i32)),
+            (Self::I64(array), Scalar::U32) => drop(fill!(array, u32)),
+            (Self::I64(array), Scalar::U64) => drop(fill!(array, u64)),
+            (Self::I64(array), _) => drop(fill!(array, i64)),
         }
+        None
     }
 }
