@@ -75,11 +75,22 @@ impl Format {
         }
     }
 
+    /// Other names of text in columns. No sequence is looked for among them: much else is called so.
+    const TABLES: [&str; 5] = [".txt", ".tsv", ".dat", ".asc", ".tab"];
+
     /// The format that a file name promises.
     pub(crate) fn of_name(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
         let name = name.strip_suffix(".gz").unwrap_or(&name);
         Self::ALL.into_iter().find(|format| name.ends_with(&format!(".{format}")))
+    }
+
+    /// Whether the name and the beginning are those of text in columns under one of its other names.
+    fn is_table(head: &[u8], path: &Path) -> bool {
+        let name = path.file_name().map(|name| name.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        let name = name.strip_suffix(".gz").unwrap_or(&name);
+        let is_binary = head.iter().any(|byte| *byte < b'\t');
+        Self::TABLES.iter().any(|end| name.ends_with(end)) && !is_binary
     }
 
     /// The format of a file.
@@ -104,12 +115,17 @@ impl Format {
         match Self::of_name(path) {
             Some(Self::Pos) => Ok(Self::Pos),
             _ if pos::has_size_of(head, input.left()) => Ok(Self::Pos),
+            Some(Self::Csv | Self::Xyz) if [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| head.starts_with(*mark)) => {
+                let (what, remedy) = ("text of UTF-16".into(), "save it as UTF-8".into());
+                Err(ReadError::Unsupported { path: path.to_owned(), what, remedy })
+            }
             Some(Self::Csv | Self::Xyz) if head.iter().any(|byte| *byte < b'\t') => Err(ReadError::Unsupported {
                 path: path.to_owned(),
                 what: "a file of bare binary numbers".into(),
                 remedy: "if it holds x, y and z of each particle, say --raw f32 or --raw f64; else write it as text, .pos or .ply".into(),
             }),
             Some(format @ (Self::Csv | Self::Xyz | Self::Json)) => Ok(format),
+            None if Self::is_table(head, path) => Ok(Self::Csv),
             Some(format) => {
                 let fault: Result<_, Fault> = broken!("it starts with {}, as no such file does", quote(head));
                 fault.map_err(|fault| fault.at(path, format))
@@ -159,6 +175,7 @@ impl fmt::Display for Format {
 fn unsupported(head: &[u8], path: &Path) -> Option<(&'static str, &'static str)> {
     const HOUDINI: &str = "write classic .bgeo or .ply from Houdini, or convert with `gconvert in.bgeo out.ply`";
     const BLENDER: &str = "export the points as .ply, from Blender or Houdini";
+    const MESH: &str = "fill it with particles first: `limpid sample MESH --spacing S -o FILE.ply`";
     const PARAVIEW: &str = "save it as legacy .vtk or .ply from ParaView";
     let known = [
         (&b"\x7fNSJ"[..], "a .bgeo file of Houdini 12 and later", HOUDINI),
@@ -171,12 +188,26 @@ fn unsupported(head: &[u8], path: &Path) -> Option<(&'static str, &'static str)>
         (b"PXR-USDC", "a USD file", BLENDER),
         (b"#usda", "a USD file", BLENDER),
         (b"PK\x03\x04", "a zip archive (such as .usdz)", "write .npz, .ply or .vtk"),
+        (
+            b"ITEM: ",
+            "a LAMMPS dump",
+            "write `dump ... xyz` or `dump ... vtk`, or export .xyz with its columns from OVITO",
+        ),
+        (b"# .PCD", "a PCD file", "convert it with `pcl_pcd2ply in.pcd out.ply`"),
+        (b"FoamFile", "a file of OpenFOAM", "convert the cloud with `foamToVTK`, which writes .vtp or .vtk of it"),
         (b"\xda\xba\xfa\x00", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
         (b"\xda\xba\xda\xfa", "a RealFlow .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
     ];
     let named = [
         (".abc", "an Alembic file", BLENDER),
         (".bin", "a .bin file", "convert it with `partconvert in.bin out.bgeo` of Partio"),
+        (".bi4", "a .bi4 file of DualSPHysics", "convert it with `PartVTK -dirin ... -savevtk ...` of DualSPHysics"),
+        (".obj", "a mesh", MESH),
+        (".stl", "a mesh", MESH),
+        (".gltf", "a mesh", MESH),
+        (".glb", "a mesh", MESH),
+        (".sc", "a blosc-packed Houdini file (.bgeo.sc)", HOUDINI),
+        (".geo", "a .geo file of Houdini", HOUDINI),
         (".vtkhdf", "a VTKHDF file", PARAVIEW),
     ];
     let name = path.file_name().map(|name| name.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();

@@ -5,7 +5,7 @@ use crate::{Attribute, Values};
 
 /// Canonical names with their aliases, best first, and the component counts that make sense.
 const ALIASES: [(&str, &[&str], &[usize]); 6] = [
-    ("velocity", &["velocity", "vel", "v", "velocities"], &[3]),
+    ("velocity", &["velocity", "vel", "v", "velocities", "velo"], &[3]),
     ("density", &["density", "rho", "Rhop", "densities"], &[1]),
     ("radius", &["radius", "pscale", "width", "widths", "h", "radii"], &[1]),
     ("id", &["id", "Idp", "ids"], &[1]),
@@ -22,11 +22,19 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("color", &["r", "g", "b"]),
 ];
 
-/// What may follow a vector's name in the names of its columns: `vx`, `velocity:0` (ParaView), `velocity_0`.
-const SUFFIXES: [[&str; 3]; 4] = [["x", "y", "z"], [":0", ":1", ":2"], ["_0", "_1", "_2"], ["[0]", "[1]", "[2]"]];
+/// What may follow a vector's name in the names of its columns: `vx`, `velocity:0` (ParaView), `velocity_0`, `Velocity[i]` (Star-CCM+),
+/// and for positions `x-coordinate` (Fluent).
+const SUFFIXES: [[&str; 3]; 6] = [
+    ["x", "y", "z"],
+    [":0", ":1", ":2"],
+    ["_0", "_1", "_2"],
+    ["[0]", "[1]", "[2]"],
+    ["[i]", "[j]", "[k]"],
+    ["x-coordinate", "y-coordinate", "z-coordinate"],
+];
 
 /// Names of positions as a whole; without a name they are bare x, y, z.
-const POSITIONS: [&str; 7] = ["", "P", "pos", "position", "positions", "points", "coordinates"];
+const POSITIONS: [&str; 9] = ["", "P", "pos", "position", "positions", "points", "coordinates", "particles", "arr_0"];
 
 /// What else they are called as a whole, in Taichi's programs, which say v of velocities.
 const WHOLE: &str = "x";

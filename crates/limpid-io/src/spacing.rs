@@ -7,6 +7,8 @@
 
 use std::collections::HashMap;
 
+use crate::parallel;
+
 /// Particles whose neighbours are looked at.
 const QUERIES: usize = 512;
 
@@ -36,6 +38,9 @@ const SPACING_PER_NEAREST: f64 = 1.1;
 const SPACING_PER_PACKING: f64 = 1.025;
 
 const ROUNDS: usize = 24;
+
+/// Particles that a core looks at in the time that it takes to ask it.
+const LEAST_SHARE: usize = 1 << 16;
 
 pub(crate) fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f64> {
     let mut spacing = guess(positions)?;
@@ -88,7 +93,7 @@ fn sample(positions: &[[f32; 3]], count: usize) -> impl Iterator<Item = [f32; 3]
 fn neighbour_distances(positions: &[[f32; 3]], queries: &[[f32; 3]], reach: f64) -> Vec<Vec<f64>> {
     // A particle far out falls into a wrong cell, and finds no query there.
     let per_cell = (1.0 / reach) as f32;
-    let cell = |position: [f32; 3]| position.map(|x| (x * per_cell).floor() as i32);
+    let cell = |position: [f32; 3]| position.map(|x| floor(x * per_cell));
     let mut near: HashMap<[i32; 3], Vec<usize>> = HashMap::new();
     let mut mask = Mask::new();
     for (index, query) in queries.iter().enumerate() {
@@ -100,22 +105,39 @@ fn neighbour_distances(positions: &[[f32; 3]], queries: &[[f32; 3]], reach: f64)
             mask.set(around);
         }
     }
-    let mut neighbours = vec![Vec::new(); queries.len()];
-    for &position in positions {
-        let cell = cell(position);
-        if !mask.has(cell) {
-            continue;
-        }
-        let Some(indices) = near.get_mut(&cell) else { continue };
-        indices.retain(|&index| {
-            let distance = distance_squared(position, queries[index]).sqrt();
-            if distance > 0.0 && distance <= reach {
-                neighbours[index].push(distance);
+    let of_share = |share: &[[f32; 3]]| {
+        let (mut near, mut neighbours) = (near.clone(), vec![Vec::new(); queries.len()]);
+        for &position in share {
+            let cell = cell(position);
+            if !mask.has(cell) {
+                continue;
             }
-            neighbours[index].len() < CLUMP
-        });
-    }
-    neighbours
+            let Some(indices) = near.get_mut(&cell) else { continue };
+            indices.retain(|&index| {
+                let distance = distance_squared(position, queries[index]).sqrt();
+                if distance > 0.0 && distance <= reach {
+                    neighbours[index].push(distance);
+                }
+                neighbours[index].len() < CLUMP
+            });
+        }
+        neighbours
+    };
+    let shares = positions.chunks(positions.len().div_ceil(parallel::threads()).max(LEAST_SHARE)).collect();
+    let joined = parallel::map(shares, of_share).into_iter().reduce(|mut neighbours, others| {
+        for (distances, mut others) in neighbours.iter_mut().zip(others) {
+            distances.append(&mut others);
+            distances.truncate(CLUMP);
+        }
+        neighbours
+    });
+    joined.unwrap_or_default()
+}
+
+/// The whole number below, without asking a library where the processor's first instructions lack it.
+fn floor(x: f32) -> i32 {
+    let whole = x as i32;
+    whole.wrapping_sub(i32::from(x < whole as f32))
 }
 
 /// A small set of cells that may say yes to others too: it spares most particles the look-up in a larger map.

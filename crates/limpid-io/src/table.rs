@@ -40,6 +40,10 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
             header = Row::of(text.strip_prefix(b"#").unwrap_or(text)).fields().map(column_name).collect();
         }
     }
+    if declared.is_some() && header.is_empty() && table.begins_with_types() {
+        header = ["type", "x", "y", "z"].map(String::from).to_vec();
+        header.extend((5..=table.columns.len()).map(numbered));
+    }
     match declared {
         Some(count) if count != table.rows => {
             broken!("it has {} particles where its first line says {count}", table.rows)
@@ -83,6 +87,12 @@ impl Table {
         true
     }
 
+    /// Whether atoms of XYZ have numbers in place of chemical symbols, as LAMMPS writes them.
+    fn begins_with_types(&self) -> bool {
+        let is_whole = |column: &Option<Vec<f64>>| column.as_ref().is_some_and(|x| x.iter().all(|x| x.fract() == 0.0));
+        matches!(&self.columns[..], [types, position @ ..] if position.len() > 2 && is_whole(types) && !position[..3].iter().all(is_whole))
+    }
+
     fn into_particles(self, mut names: Vec<String>) -> Result<Raw, Fault> {
         let mut columns = self.columns;
         if self.rows == 0 {
@@ -101,7 +111,7 @@ impl Table {
         }
         if names.len() != columns.len() {
             names = ["x", "y", "z"].map(String::from).to_vec();
-            names.extend((4..=columns.len()).map(|column| format!("column {column}")));
+            names.extend((4..=columns.len()).map(numbered));
         }
         let columns = names.into_iter().zip(columns).filter(|(name, _)| !name.is_empty());
         let column = |(name, column): (String, Option<Vec<f64>>)| {
@@ -156,6 +166,11 @@ impl<'a> Row<'a> {
     }
 }
 
+/// What a column without a name is called.
+fn numbered(column: usize) -> String {
+    format!("column {column}")
+}
+
 fn outside_quotes(divides: impl Fn(u8) -> bool) -> impl FnMut(&u8) -> bool {
     let mut within = false;
     move |byte| {
@@ -164,10 +179,10 @@ fn outside_quotes(divides: impl Fn(u8) -> bool) -> impl FnMut(&u8) -> bool {
     }
 }
 
-/// A column's name without its unit: `Pos.x [m]` is `Pos.x`.
+/// A column's name without its unit: `Pos.x [m]` is `Pos.x`, and `X (m)` is `X`.
 fn column_name(field: &[u8]) -> String {
     let name = &*String::from_utf8_lossy(field);
-    name.split_once(" [").map_or(name, |(name, _)| name).trim().to_owned()
+    [" [", " ("].iter().fold(name, |name, unit| name.split_once(unit).map_or(name, |(name, _)| name)).trim().to_owned()
 }
 
 /// The columns in the comment of an extended XYZ file: `Properties=species:S:1:pos:R:3` are `species`, `posx`, `posy`

@@ -39,7 +39,13 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
         } else {
             format!("an XML file of {}", quote(file.name.as_bytes()))
         };
-        return Err(Fault::Unsupported { what, remedy: "give a .vtu of an UnstructuredGrid or a .vtp of PolyData" });
+        let remedy = match kind {
+            "PUnstructuredGrid" | "PPolyData" | "vtkMultiBlockDataSet" => {
+                "give the .vtu and .vtp files that it lists, or a .pvd of them"
+            }
+            _ => "give a .vtu of an UnstructuredGrid or a .vtp of PolyData",
+        };
+        return Err(Fault::Unsupported { what, remedy });
     }
     let layout = Layout::of(&file)?;
     let mut reader = Reader { input, layout, pieces: Vec::new(), appended: Vec::new(), warnings: Vec::new() };

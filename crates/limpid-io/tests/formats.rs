@@ -190,6 +190,26 @@ fn csv_of_several_programs() {
 }
 
 #[test]
+fn tables_as_other_programs_name_them() {
+    let folder = Folder::new("tables");
+    let fluent = "nodenumber,    x-coordinate,    y-coordinate,    z-coordinate,  density\n\
+        1, 1.0E+00, 2.0E+00, 3.0E+00, 1.0E+03\n2, 4.0E+00, 5.0E+00, 6.0E+00, 1.0E+03\n";
+    let star = "\"Velocity[i] (m/s)\",\"Velocity[j] (m/s)\",\"Velocity[k] (m/s)\",\"X (m)\",\"Y (m)\",\"Z (m)\"\n\
+        7,8,9,1,2,3\n7,8,9,4,5,6\n";
+    for (name, text, attribute) in [
+        ("fluent.csv", fluent, Some("density")),
+        ("star.csv", star, Some("velocity")),
+        ("savetxt.txt", "1.0e+00 2.0e+00 3.0e+00\n4.0e+00 5.0e+00 6.0e+00\n", None),
+        ("tab.TSV", "X\tY\tZ\tRho\n1\t2\t3\t1000\n4\t5\t6\t1000\n", Some("density")),
+        ("six.dat", "# x y z vx vy vz\n1 2 3 7 8 9\n4 5 6 7 8 9\n", Some("velocity")),
+    ] {
+        let set = folder.read(name, text).unwrap();
+        assert_eq!(set.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{name}");
+        assert!(attribute.is_none_or(|attribute| set.attribute(attribute).is_some()), "{name}: {:?}", set.attributes);
+    }
+}
+
+#[test]
 fn xyz_with_and_without_a_count() {
     let folder = Folder::new("xyz");
     let bare = "1 2 3 0.5\n4 5 6 0.5\n";
@@ -198,6 +218,9 @@ fn xyz_with_and_without_a_count() {
         O 7 8 9 1 2 3 11\nO 7 8 9 4 5 6 12\n";
     let words_within = "2\nProperties=id:I:1:species:S:1:pos:R:3:fixed:L:1\n11 O 1 2 3 T\n12 O 4 5 6 F\n";
     let frames = "2\nwater\nO 1 2 3\nO 4 5 6\n2\nwater\nO 1 2 3\nO 4 5 7\n";
+    let set = folder.read("lammps.xyz", "2\nAtoms. Timestep: 0\n1 1.25 2.25 3.25 7\n2 4 5 6 7\n").unwrap();
+    assert_eq!(set.positions, [[1.25, 2.25, 3.25], [4.0, 5.0, 6.0]]);
+    assert_eq!(attribute(&set, "type").values, Values::F64(vec![1.0, 2.0]));
     for text in [bare, counted, extended, words_within, frames] {
         let set = folder.read("text.xyz", text).unwrap();
         assert_eq!(set.warnings.len(), usize::from(text == frames));

@@ -352,12 +352,36 @@ fn other_files_are_told_apart() {
     assert!(matches!(error("empty.bgeo", &gzip(b"")), ReadError::Broken { .. }));
     assert!(matches!(error("text.vtk", b"hello\nworld\n"), ReadError::Broken { .. }));
     assert!(matches!(error("text.pos", b"hello\nworld\n"), ReadError::Broken { .. }));
-    assert!(matches!(error("text.dat", b"hello\nworld\n"), ReadError::Unrecognised { .. }));
+    assert!(matches!(error("text.log", b"hello\nworld\n"), ReadError::Unrecognised { .. }));
+    assert!(matches!(error("text.dat", b"hello\nworld\n"), ReadError::Broken { .. }));
+    assert!(matches!(error("binary.dat", b"\0\0\x80\x3f\x01\x02"), ReadError::Unrecognised { .. }));
     assert!(matches!(error("houdini.bgeo", b"\x7fNSJb...."), ReadError::Unsupported { .. }));
     assert!(matches!(error("houdini.bgeo", &gzip(b"\x7fNSJb....")), ReadError::Unsupported { .. }));
     assert!(matches!(error("hdf.h5", b"\x89HDF\r\n\x1a\n...."), ReadError::Unsupported { .. }));
     assert!(matches!(error("alembic.abc", b"Ogawa\xff"), ReadError::Unsupported { .. }));
     assert!(matches!(error("partio.bin", b"\x01\x02\x03"), ReadError::Unsupported { .. }));
+    for (name, contents, remedy) in [
+        ("a.usda", &b"#usda 1.0\n"[..], "export the points as .ply"),
+        ("a.usdc", b"PXR-USDC\0", "export the points as .ply"),
+        ("a.lammpstrj", b"ITEM: TIMESTEP\n0\n", "dump ... xyz"),
+        ("a.pcd", b"# .PCD v0.7\n", "pcl_pcd2ply"),
+        ("positions", b"FoamFile\n{\n", "foamToVTK"),
+        ("Part_0001.bi4", b"\x01\x02", "PartVTK"),
+        ("ball.obj", b"v 1 2 3\n", "limpid sample"),
+        ("ball.stl", b"solid ball\n", "limpid sample"),
+        ("excel.csv", b"\xff\xfex\0,\0", "save it as UTF-8"),
+        (
+            "a.pvtu",
+            b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\">",
+            "the .vtu and .vtp files that it lists",
+        ),
+    ] {
+        let error = error(name, contents);
+        assert!(matches!(error, ReadError::Unsupported { .. }) && error.to_string().contains(remedy), "{error}");
+    }
+    // The same first bytes, but of a number of particles.
+    let many = pos(0.5, &[[1.0; 3]; 0xfeff]);
+    assert_eq!(folder.read("many.pos", &many).unwrap().len(), 0xfeff);
     let grid = b"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\n";
     assert!(matches!(error("grid.vtk", grid), ReadError::Unsupported { .. }));
     assert!(matches!(read("no/such/file.vtk".as_ref()), Err(ReadError::Io { .. })));
