@@ -21,13 +21,18 @@ fn finest(@builtin(global_invocation_id) texel: vec3u) {
     let limit = min(settings.picture_size, textureDimensions(scene_depth));
     let low = min(texel.xy * side, limit - 1u);
     let high = min(low + side, limit);
-    var range = NOTHING;
+    // Of the buffer's own values, whichever way they grow: one quotient for each end, not for each pixel.
+    var least = 1.0;
+    var most = 0.0;
     for (var y = low.y; y < high.y; y++) {
         for (var x = low.x; x < high.x; x++) {
-            range = together(range, vec2f(scene_depth_of(vec2u(x, y))));
+            let value = textureLoad(scene_depth, vec2u(x, y), 0);
+            least = min(least, value);
+            most = max(most, value);
         }
     }
-    ranges[texel.y * settings.thickness_size.x + texel.x] = range;
+    let ends = vec2f(scene_depth_from_host(least), scene_depth_from_host(most));
+    ranges[texel.y * settings.thickness_size.x + texel.x] = vec2f(min(ends.x, ends.y), max(ends.x, ends.y));
 }
 
 @compute @workgroup_size(8, 8)
