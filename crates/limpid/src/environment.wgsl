@@ -80,30 +80,52 @@ fn checker(at: vec2f, width: vec2f) -> f32 {
     return 0.5 - 0.5 * integral.x * integral.y;
 }
 
-// Liquid before a depth from a light, in one texel.
-fn liquid_before(place: LightPlace, at: vec2i) -> f32 {
+// Where a light's rays through a texel of its map enter and leave the liquid, as depths; 0, 0 where they meet none.
+fn liquid_span(place: LightPlace, at: vec2i) -> vec2f {
     let size = i32(environment.shadow_texels);
     let inside = min(min(at.x, at.y), size - 1 - max(at.x, at.y)) >= 0;
+    let first = first_word(place, at);
+    return select(vec2f(0.0), vec2f(shadow[first], shadow[first + 1u]), inside);
+}
+
+fn first_word(place: LightPlace, at: vec2i) -> u32 {
+    let size = i32(environment.shadow_texels);
     let texel = clamp(at, vec2i(0), vec2i(size - 1));
-    let first = place.first + u32(texel.y * size + texel.x) * SHADOW_WORDS;
-    let front = shadow[first];
-    let back = shadow[first + 1u];
-    let along = clamp((place.depth - front) / max(back - front, 1e-30), 0.0, 1.0) * f32(SHADOW_SLICES);
+    return place.first + u32(texel.y * size + texel.x) * SHADOW_WORDS;
+}
+
+// Liquid before a depth from a light, in one texel.
+fn liquid_before(place: LightPlace, at: vec2i, span: vec2f) -> f32 {
+    let along = clamp((place.depth - span.x) / max(span.y - span.x, 1e-30), 0.0, 1.0) * f32(SHADOW_SLICES);
     let slice = min(u32(along), SHADOW_SLICES - 1u);
-    let low = select(0.0, shadow[first + 1u + slice], slice > 0u);
-    let before = mix(low, shadow[first + 2u + slice], along - f32(slice));
-    return select(0.0, before, inside & (back > 0.0));
+    let first = first_word(place, at) + 1u + slice;
+    let low = select(0.0, shadow[first], slice > 0u);
+    let before = mix(low, shadow[first + 1u], along - f32(slice));
+    return select(0.0, before, span.y > 0.0);
 }
 
 // Liquid between a light and a place of its view.
 fn liquid_toward(place: LightPlace) -> f32 {
-    let texel = (0.5 * place.across + 0.5) * f32(environment.shadow_texels) - 0.5;
+    let size = f32(environment.shadow_texels);
+    let texel = (0.5 * place.across + 0.5) * size - 0.5;
     let low = floor(texel);
     let part = texel - low;
-    let corner = vec2i(clamp(low, vec2f(-2.0), vec2f(f32(environment.shadow_texels))));
-    let top = mix(liquid_before(place, corner), liquid_before(place, corner + vec2i(1, 0)), part.x);
-    let bottom = mix(liquid_before(place, corner + vec2i(0, 1)), liquid_before(place, corner + vec2i(1, 1)), part.x);
-    return mix(top, bottom, part.y);
+    let corner = vec2i(clamp(low, vec2f(-2.0), vec2f(size)));
+    let right = corner + vec2i(1, 0);
+    let below = corner + vec2i(0, 1);
+    let both = corner + vec2i(1, 1);
+    let a = liquid_span(place, corner);
+    let b = liquid_span(place, right);
+    let c = liquid_span(place, below);
+    let d = liquid_span(place, both);
+    // A loop, since CPU drivers execute both sides of a branch: between most places and a light there is no liquid.
+    var liquid = 0.0;
+    for (var round = select(1, 0, max(max(a.y, b.y), max(c.y, d.y)) > 0.0); round < 1; round++) {
+        let top = mix(liquid_before(place, corner, a), liquid_before(place, right, b), part.x);
+        let bottom = mix(liquid_before(place, below, c), liquid_before(place, both, d), part.x);
+        liquid = mix(top, bottom, part.y);
+    }
+    return liquid;
 }
 
 // A place in a light's view: across it, in half widths, and its depth; and where the light's maps begin.

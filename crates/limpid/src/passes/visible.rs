@@ -56,7 +56,8 @@ impl Visible {
         }
     }
 
-    /// Lists those of some particles (vec4: local position, radius) that are drawn in a stage; the second goes by what the first has left in `targets.raw`.
+    /// Lists those of some particles (vec4: local position, radius) that are drawn in a stage; the second goes by what the
+    /// first has left in `targets.raw`.
     pub fn encode(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -78,19 +79,19 @@ impl Visible {
             items.as_entire_binding(),
             self.groups.as_entire_binding(),
         ];
-        let grid = Grid::Items(count, 64);
+        let each = Grid::Items(count, 64);
         recorder.encoder.clear_buffer(items, 0, Some(4));
         match stage {
             Stage::Fronts => {
                 recorder.clear(fronts);
-                recorder.run("visible", &self.find_fronts, &resources, &grid);
-                recorder.run("visible", &self.list_fronts, &resources, &grid);
+                recorder.run("visible", &self.find_fronts, &resources, &each);
+                recorder.run("visible", &self.list_fronts, &resources, &each);
             }
             Stage::Rest => {
                 recorder.run("visible", &self.cover_tiles, &resources, &Grid::Items(tiles, 64));
                 let wide_tiles = targets.widest_covered_tile_count();
                 recorder.run("visible", &self.cover_wide_tiles, &resources, &Grid::Items(wide_tiles, 64));
-                recorder.run("visible", &self.list_rest, &resources, &grid);
+                recorder.run("visible", &self.list_rest, &resources, &each);
             }
         }
         recorder.run("visible", &self.count_list, &resources, &Grid::Items(1, 1));
