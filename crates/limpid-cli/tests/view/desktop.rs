@@ -46,7 +46,7 @@ impl Drop for Server {
 impl Desktop {
     pub fn new() -> Self {
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-terminate"])
+            .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-terminate"])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()

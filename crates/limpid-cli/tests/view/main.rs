@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod desktop;
+mod gallery;
 mod screen;
 mod trouble;
 mod user;

@@ -12,6 +12,9 @@ use tungstenite::{Message, WebSocket};
 /// Longer than anything takes on a busy machine with SwiftShader.
 const PATIENCE: Duration = Duration::from_secs(600);
 
+/// What browsers of the tests take for another machine.
+pub const OTHER_MACHINE: &str = "other.test";
+
 /// The server of a folder.
 pub struct Server {
     process: Child,
@@ -54,6 +57,8 @@ pub struct Chromium {
     is_pressed: bool,
     button: &'static str,
     errors: Vec<String>,
+    /// The page's input that has asked for files.
+    chooser: Option<Value>,
 }
 
 impl Chromium {
@@ -74,6 +79,7 @@ impl Chromium {
             .args(["--headless=new", "--no-sandbox", "--remote-debugging-port=0", "--window-size=1024,768"])
             .args(gpu)
             .arg(format!("--user-data-dir={}", profile.display()))
+            .arg(format!("--host-resolver-rules=MAP {OTHER_MACHINE} 127.0.0.1"))
             .arg("about:blank")
             .stderr(Stdio::piped())
             .stdout(Stdio::null())
@@ -89,8 +95,16 @@ impl Chromium {
         std::thread::spawn(move || log.read_to_end(&mut Vec::new()));
         let port: u16 = line.split("ws://").nth(1).unwrap().split(['/', ':']).nth(1).unwrap().parse().unwrap();
         let socket = connect(port);
-        let mut page =
-            Self { process, profile, socket, messages: 0, is_pressed: false, button: "left", errors: Vec::new() };
+        let mut page = Self {
+            process,
+            profile,
+            socket,
+            messages: 0,
+            is_pressed: false,
+            button: "left",
+            errors: Vec::new(),
+            chooser: None,
+        };
         for domain in ["Runtime.enable", "Log.enable", "Page.enable"] {
             page.call(domain, json!({}));
         }
@@ -116,6 +130,9 @@ impl Chromium {
     }
 
     fn note(&mut self, event: &Value) {
+        if event["method"] == "Page.fileChooserOpened" {
+            self.chooser = Some(event["params"]["backendNodeId"].clone());
+        }
         let is_error = match event["method"].as_str() {
             Some("Runtime.exceptionThrown") => true,
             Some("Runtime.consoleAPICalled") => event["params"]["type"] == "error",
@@ -204,18 +221,31 @@ impl Chromium {
         ));
     }
 
-    /// The screen.
-    pub fn screen(&mut self) -> image::RgbaImage {
-        image::load_from_memory(&self.screenshot()).unwrap().to_rgba8()
+    /// Clicks on what asks for files, and chooses one.
+    pub fn choose(&mut self, at: (f64, f64), file: &Path) {
+        self.call("Page.setInterceptFileChooserDialog", json!({ "enabled": true }));
+        self.click(at);
+        let begin = Instant::now();
+        let chooser = loop {
+            if let Some(chooser) = self.chooser.take() {
+                break chooser;
+            }
+            assert!(begin.elapsed() < PATIENCE, "nothing asks for files");
+            self.pause(100);
+        };
+        self.call("DOM.setFileInputFiles", json!({ "files": [file.display().to_string()], "backendNodeId": chooser }));
     }
 
-    /// The same as a PNG file.
-    pub fn screenshot(&mut self) -> Vec<u8> {
-        let answer = self.call("Page.captureScreenshot", json!({ "format": "png" }));
-        self.run(&format!("Array.from(atob({}), (byte) => byte.charCodeAt(0))", answer["data"]))
-            .as_array()
-            .map(|bytes| bytes.iter().filter_map(|byte| byte.as_u64()).map(|byte| byte as u8).collect())
-            .unwrap_or_default()
+    /// The screen.
+    pub fn screen(&mut self) -> image::RgbaImage {
+        image::load_from_memory(&self.screenshot("png")).unwrap().to_rgba8()
+    }
+
+    /// The same as a file, "png" or "jpeg".
+    pub fn screenshot(&mut self, format: &str) -> Vec<u8> {
+        let answer = self.call("Page.captureScreenshot", json!({ "format": format, "quality": 85 }));
+        let bytes = self.run(&format!("Array.from(atob({}), (byte) => byte.charCodeAt(0))", answer["data"]));
+        serde_json::from_value(bytes).unwrap()
     }
 
     /// Puts another tab before the page.

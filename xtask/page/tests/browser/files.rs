@@ -1,7 +1,8 @@
 //! Files dropped on the page.
 
 use crate::chromium::Chromium;
-use crate::picture;
+use crate::layout::OPEN;
+use crate::picture::{self, Folder};
 
 /// A simulation that the page has beside that which it starts with.
 pub const DAM: (&str, &str) = ("dam.bgeo", "await (await fetch('data/dam_break_20.bgeo')).arrayBuffer()");
@@ -22,6 +23,17 @@ pub fn files_can_be_dropped(page: &mut Chromium) {
     page.wait("viewer.isSettled && viewer.toml().includes('300x200') && viewer.toml().includes('milk')");
     page.drop(&[("odd.toml", "'look = 7'")]);
     page.wait("viewer.problems.join().includes('odd.toml')");
+}
+
+/// The same file twice: it may have changed meanwhile.
+pub fn files_can_be_chosen(page: &mut Chromium) {
+    let folder = Folder::new("chosen");
+    let path = folder.0.join("chosen.csv");
+    for rows in ["0,0,0\n0.2,0,0\n", "0,0,0\n0.2,0,0\n0.4,0,0\n"] {
+        std::fs::write(&path, format!("x,y,z\n{rows}")).unwrap();
+        page.choose(OPEN, &path);
+        page.wait(&format!("viewer.isSettled && viewer.particles === {}", rows.lines().count()));
+    }
 }
 
 /// A mesh with its materials, and light from an OpenEXR picture: what the program draws of the same files.

@@ -18,6 +18,7 @@ pub const SAVE_PICTURE: (f64, f64) = (110.0, 42.0);
 pub const SAVE_SETTINGS: (f64, f64) = (110.0, 65.0);
 pub const SAVE_COMMAND: (f64, f64) = (110.0, 88.0);
 /// Buttons.
+pub const OPEN: (f64, f64) = (38.0, 15.0);
 pub const UNDO: (f64, f64) = (143.0, 15.0);
 pub const REDO: (f64, f64) = (194.0, 15.0);
 pub const COMPARE: (f64, f64) = (422.0, 15.0);

@@ -12,7 +12,7 @@ mod speed;
 mod transport;
 mod trouble;
 
-use chromium::{Chromium, Server};
+use chromium::{Chromium, OTHER_MACHINE, Server};
 use picture::root;
 
 const SHOT: &str =
@@ -51,6 +51,7 @@ fn the_page_draws_what_the_program_draws_and_does_what_its_users_do() {
     transport::playback_can_be_slow(&mut page);
     transport::a_hidden_tab_plays_on_when_it_is_shown_again(&mut page);
     camera::the_camera_goes_by_mouse_and_keys(&mut page);
+    files::files_can_be_chosen(&mut page);
     files::files_can_be_dropped(&mut page);
     files::scenes_can_be_dropped(&mut page);
     trouble::a_window_can_be_tiny(&mut page);
@@ -79,6 +80,15 @@ fn the_example_draws_an_array_of_particles() {
     assert_eq!(page.console_errors(), Vec::<String>::new());
     page.lose_device();
     page.wait("document.getElementById('said').textContent.includes('graphics device was lost')");
+}
+
+/// Browsers have no WebGPU for such a page, however new they are.
+#[test]
+fn from_another_machine_without_https_the_page_says_what_to_do() {
+    let server = Server::of(&root().join("out/web"));
+    let mut page = Chromium::open(&server.address("").replace("localhost", OTHER_MACHINE), true);
+    page.wait("document.getElementById('message').textContent.includes('https')");
+    assert!(page.text("document.getElementById('message').textContent").contains("limpid view"));
 }
 
 #[test]
