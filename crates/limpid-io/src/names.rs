@@ -70,27 +70,45 @@ pub(crate) fn make_canonical(attributes: &mut [Attribute]) {
     }
 }
 
-/// Takes the positions out of an attribute list, as three columns or as one array.
-pub(crate) fn take_positions(attributes: &mut Vec<Attribute>) -> Option<Positions> {
-    let names_positions = |a: &Attribute| {
-        a.components == 3 && POSITIONS.iter().chain([&WHOLE]).any(|name| a.name.eq_ignore_ascii_case(name))
-    };
-    if let Some(index) = attributes.iter().position(names_positions) {
-        return Some(Positions::from_triples(attributes.remove(index).values));
+/// An array whose numbers may not have been read.
+pub(crate) struct Named<'a> {
+    pub name: &'a str,
+    pub components: usize,
+    pub rows: u64,
+}
+
+/// Which arrays are the positions: one of x, y and z, or three of one length.
+pub(crate) fn positions_among(arrays: &[Named]) -> Option<Vec<usize>> {
+    let names_positions =
+        |a: &Named| a.components == 3 && POSITIONS.iter().chain([&WHOLE]).any(|name| a.name.eq_ignore_ascii_case(name));
+    if let Some(index) = arrays.iter().position(names_positions) {
+        return Some(vec![index]);
     }
     let columns = SUFFIXES.iter().find_map(|suffixes| {
         POSITIONS.iter().find_map(|base| {
-            ["", "_", "."]
-                .iter()
-                .find_map(|joint| find(attributes, &suffixes.map(|suffix| format!("{base}{joint}{suffix}"))))
+            ["", "_", "."].iter().find_map(|joint| {
+                let index_of =
+                    |name: String| arrays.iter().position(|a| a.components == 1 && a.name.eq_ignore_ascii_case(&name));
+                suffixes.iter().map(|suffix| index_of(format!("{base}{joint}{suffix}"))).collect::<Option<Vec<_>>>()
+            })
         })
     })?;
-    let length = |column: usize| attributes[column].values.len();
-    if columns.iter().any(|column| length(*column) != length(columns[0])) {
-        return None;
+    columns.iter().all(|&column| arrays[column].rows == arrays[columns[0]].rows).then_some(columns)
+}
+
+/// Takes the positions out of an attribute list, as three columns or as one array.
+pub(crate) fn take_positions(attributes: &mut Vec<Attribute>) -> Option<Positions> {
+    let named = |a| {
+        let Attribute { name, components, values }: &Attribute = a;
+        Named { name, components: *components, rows: (values.len() / components.max(&1)) as u64 }
+    };
+    match positions_among(&attributes.iter().map(named).collect::<Vec<_>>())?[..] {
+        [whole] => Some(Positions::from_triples(attributes.remove(whole).values)),
+        ref columns => {
+            let columns = take(attributes, columns);
+            Some(Positions::from_columns(<[Values; 3]>::try_from(columns).ok()?))
+        }
     }
-    let columns = take(attributes, &columns);
-    Some(Positions::from_columns(<[Values; 3]>::try_from(columns).ok()?))
 }
 
 /// Whether an array of this name holds positions, even where they are written as one list of numbers.

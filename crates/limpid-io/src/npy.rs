@@ -4,9 +4,9 @@ mod records;
 
 use crate::error::{Fault, broken, quote};
 use crate::input::{Input, parse};
+use crate::names;
 use crate::raw::{Positions, Raw};
 use crate::values::{Encoding, Scalar, Values};
-use crate::{Attribute, names};
 use records::Records;
 
 pub(crate) const MAGIC: &[u8; 6] = b"\x93NUMPY";
@@ -15,16 +15,18 @@ const MOST_COLUMNS: u64 = 64;
 
 pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     input.skip(MAGIC.len() as u64)?;
-    let Array { shape, values } = read_array(input)?;
-    match shape {
+    let header = Header::read(input)?;
+    match header.shape {
         Shape::Rows(count, 3) => {
+            let values = header.values(input)?;
             if !input.at_end()? {
                 return broken!("bytes follow its {count} rows");
             }
             Ok(Raw::new(Positions::from_triples(values)))
         }
         Shape::Rows(count, columns) => broken!("its shape is ({count}, {columns}), not (n, 3)"),
-        Shape::Records(mut attributes) => {
+        Shape::Records(records, rows) => {
+            let mut attributes = records.read(input, rows)?;
             let Some(positions) = names::take_positions(&mut attributes) else {
                 return broken!("its records have no positions, and no x, y and z");
             };
@@ -39,64 +41,76 @@ pub(crate) fn read(input: &mut Input) -> Result<Raw, Fault> {
     }
 }
 
-/// An array with its rows one after the other.
-pub(crate) struct Array {
+/// What an array is, before its numbers.
+pub(crate) struct Header {
     pub shape: Shape,
-    pub values: Values,
+    number: Option<(Scalar, Encoding)>,
+    /// Whether its columns follow each other, not its rows.
+    has_columns: bool,
 }
 
 pub(crate) enum Shape {
     /// Rows and columns; 1 column for a plain list.
     Rows(u64, u64),
     /// A list of records, whose fields have names.
-    Records(Vec<Attribute>),
+    Records(Records, u64),
     /// Rows of another number of dimensions, whose values are not read.
     Other(String),
     /// Texts or objects, which are not read.
     NoNumbers(String),
 }
 
-/// Reads the array whose mark has been read.
-pub(crate) fn read_array(input: &mut Input) -> Result<Array, Fault> {
-    let [major, _minor] = input.bytes()?;
-    let length = match major {
-        1 => usize::from(u16::from_le_bytes(input.bytes()?)),
-        2 | 3 => u32::from_le_bytes(input.bytes()?) as usize,
-        _ => return broken!("its version {major} is unknown"),
-    };
-    if length > LONGEST_HEADER {
-        return broken!("its header of {length} bytes is too long");
-    }
-    let mut header = vec![0; length];
-    input.exact(&mut header)?;
-    let header = String::from_utf8_lossy(&header).into_owned();
+impl Header {
+    /// The header of the array whose mark has been read.
+    pub fn read(input: &mut Input) -> Result<Self, Fault> {
+        let [major, _minor] = input.bytes()?;
+        let length = match major {
+            1 => usize::from(u16::from_le_bytes(input.bytes()?)),
+            2 | 3 => u32::from_le_bytes(input.bytes()?) as usize,
+            _ => return broken!("its version {major} is unknown"),
+        };
+        if length > LONGEST_HEADER {
+            return broken!("its header of {length} bytes is too long");
+        }
+        let mut header = vec![0; length];
+        input.exact(&mut header)?;
+        let header = String::from_utf8_lossy(&header).into_owned();
 
-    let shape = shape(&header)?;
-    let descr = entry(&header, "descr")?;
-    let Shape::Rows(rows, columns) = shape else {
-        // What is no array holds others perhaps: an object of Python.
-        let shape = if descr.starts_with("'|O'") { Shape::NoNumbers("object".into()) } else { shape };
-        return Ok(Array { shape, values: Values::U8(Vec::new()) });
-    };
-    if let (Some(records), 1) = (Records::parse(descr), columns) {
-        let shape = Shape::Records(records.read(input, rows)?);
-        return Ok(Array { shape, values: Values::U8(Vec::new()) });
+        let shape = shape(&header)?;
+        let descr = entry(&header, "descr")?;
+        let without_numbers = |shape| Self { shape, number: None, has_columns: false };
+        let Shape::Rows(rows, columns) = shape else {
+            // What is no array holds others perhaps: an object of Python.
+            let is_object = descr.starts_with("'|O'");
+            return Ok(without_numbers(if is_object { Shape::NoNumbers("object".into()) } else { shape }));
+        };
+        if let (Some(records), 1) = (Records::parse(descr), columns) {
+            return Ok(without_numbers(Shape::Records(records, rows)));
+        }
+        let kind = quoted(descr).map_or("record", |(kind, _)| kind);
+        let number = number_type(kind);
+        if number.is_none() {
+            return Ok(without_numbers(Shape::NoNumbers(kind.into())));
+        }
+        let has_columns = columns > 1 && entry(&header, "fortran_order")?.starts_with("True");
+        Ok(Self { shape, number, has_columns })
     }
-    let kind = quoted(descr).map_or("record", |(kind, _)| kind);
-    let Some((scalar, encoding)) = number_type(kind) else {
-        return Ok(Array { shape: Shape::NoNumbers(kind.into()), values: Values::U8(Vec::new()) });
-    };
-    let values = if columns > 1 && entry(&header, "fortran_order")?.starts_with("True") {
-        if columns > MOST_COLUMNS {
+
+    /// The numbers of its rows, one row after the other.
+    pub fn values(&self, input: &mut Input) -> Result<Values, Fault> {
+        let (Shape::Rows(rows, columns), Some((scalar, encoding))) = (&self.shape, self.number) else {
+            return broken!("it has no rows of numbers");
+        };
+        if !self.has_columns {
+            // A count that overflows is too large for any file, and refused as such.
+            return input.values(scalar, encoding, rows.saturating_mul(*columns));
+        }
+        if *columns > MOST_COLUMNS {
             return broken!("an array has {columns} columns");
         }
-        let read = (0..columns).map(|_| input.values(scalar, encoding, rows)).collect::<Result<Vec<_>, _>>()?;
-        names::interleave(&read)
-    } else {
-        // A count that overflows is too large for any file, and refused as such.
-        input.values(scalar, encoding, rows.saturating_mul(columns))?
-    };
-    Ok(Array { shape, values })
+        let read = (0..*columns).map(|_| input.values(scalar, encoding, *rows)).collect::<Result<Vec<_>, _>>()?;
+        Ok(names::interleave(&read))
+    }
 }
 
 /// What follows a key of the header, which is a Python dictionary of fixed keys.

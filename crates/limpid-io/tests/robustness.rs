@@ -344,6 +344,23 @@ fn a_gzip_bomb_stops_at_the_count_of_its_header() {
 }
 
 #[test]
+fn what_is_no_particles_in_an_archive_is_not_unpacked() {
+    let _turn = TURN.lock();
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let zeros = vec![0; 64 << 20];
+    let positions: Vec<u8> = POINTS.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    for (name, array) in
+        [("before", npy("<f4", false, zeros.len() / 12, &zeros)), ("positions", npy("<f4", false, 3, &positions))]
+    {
+        archive.start_file(format!("{name}.npy"), zip::write::SimpleFileOptions::default()).unwrap();
+        std::io::Write::write_all(&mut archive, &array).unwrap();
+    }
+    let bomb = archive.finish().unwrap().into_inner();
+    let set = read_frugally(&Folder::new("archive"), "bomb.npz", &bomb).unwrap();
+    assert_eq!((set.len(), set.attributes.len()), (3, 0));
+}
+
+#[test]
 fn other_files_are_told_apart() {
     let _turn = TURN.lock();
     let folder = Folder::new("others");

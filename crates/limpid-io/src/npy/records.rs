@@ -10,7 +10,7 @@ use crate::values::{Encoding, Slot};
 const MOST_FIELDS: usize = 256;
 const LARGEST_FIELD: usize = 1 << 16;
 
-pub(super) struct Records {
+pub(crate) struct Records {
     fields: Vec<(String, Slot)>,
     /// Bytes of a record.
     size: usize,
@@ -51,6 +51,11 @@ impl Records {
         };
         self.size += bytes.checked_mul(components).filter(|bytes| *bytes <= LARGEST_FIELD)?;
         (self.fields.len() <= MOST_FIELDS).then_some(())
+    }
+
+    /// The names of its fields of numbers, and how many each has.
+    pub fn fields(&self) -> impl Iterator<Item = (&str, usize)> {
+        self.fields.iter().map(|(name, slot)| (name.as_str(), slot.components))
     }
 
     pub fn read(self, input: &mut Input, rows: u64) -> Result<Vec<Attribute>, Fault> {
