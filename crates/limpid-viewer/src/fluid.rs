@@ -79,10 +79,16 @@ impl Fluid {
     }
 
     /// The particles: x, y, z of each in world units, and the radius of all (half their spacing at rest); without it, it is
-    /// estimated. Fails for numbers that are not finite.
+    /// estimated. Fails for numbers that are not finite, or not three for each.
     #[wasm_bindgen(js_name = setParticles)]
     pub fn set_particles(&mut self, positions: &[f32], radius: Option<f64>) -> Result<(), JsError> {
-        let bytes = pos_file(positions, radius);
+        let (triples, []) = positions.as_chunks() else {
+            let count = positions.len();
+            return Err(JsError::new(&format!(
+                "positions are x, y, z of each particle: {count} numbers are no multiple of 3"
+            )));
+        };
+        let bytes = pos_file(triples, radius);
         let set = Arc::new(limpid_io::read_bytes(std::path::Path::new("particles.pos"), bytes.into())?);
         let survey = Survey::of(&set, &Options::default());
         self.particles = Some((set, survey));
@@ -153,11 +159,10 @@ impl Fluid {
 }
 
 /// As limpid's own readers have them: the checks are theirs.
-fn pos_file(positions: &[f32], radius: Option<f64>) -> Vec<u8> {
-    let count = (positions.len() / 3) as u32;
-    let mut bytes = Vec::with_capacity(8 + 4 * positions.len());
-    bytes.extend(count.to_le_bytes());
+fn pos_file(positions: &[[f32; 3]], radius: Option<f64>) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(8 + 12 * positions.len());
+    bytes.extend((positions.len() as u32).to_le_bytes());
     bytes.extend((radius.unwrap_or(0.0) as f32).to_le_bytes());
-    positions[..3 * count as usize].iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+    bytes.extend(positions.iter().flatten().flat_map(|value| value.to_le_bytes()));
     bytes
 }

@@ -2,6 +2,7 @@
 
 mod camera;
 mod chromium;
+mod face;
 mod files;
 mod gallery;
 mod layout;
@@ -58,28 +59,6 @@ fn the_page_draws_what_the_program_draws_and_does_what_its_users_do() {
     camera::the_camera_goes_by_fingers(&mut page);
     assert_eq!(page.console_errors(), Vec::<String>::new());
     trouble::a_lost_device_is_told(&mut page);
-}
-
-/// The page for other pages' authors.
-#[test]
-fn the_example_draws_an_array_of_particles() {
-    let server = Server::of(&root().join("out/web"));
-    let mut page = Chromium::open(&server.address("example.html"), true);
-    page.wait("window.drawn > 2");
-    // Within the frame that it is drawn in: later, the canvas is the screen's.
-    let colors = "new Promise((done) => requestAnimationFrame(() => {
-        const copy = Object.assign(document.createElement('canvas'), { width: 64, height: 40 });
-        const context = copy.getContext('2d');
-        context.drawImage(document.getElementById('fluid'), 0, 0, 64, 40);
-        const bytes = context.getImageData(0, 0, 64, 40).data;
-        const colors = new Set();
-        for (let i = 0; i < bytes.length; i += 4) colors.add((bytes[i] << 16) | (bytes[i + 1] << 8) | bytes[i + 2]);
-        done(colors.size);
-    }))";
-    assert!(page.number(colors) > 200.0);
-    assert_eq!(page.console_errors(), Vec::<String>::new());
-    page.lose_device();
-    page.wait("document.getElementById('said').textContent.includes('graphics device was lost')");
 }
 
 /// Browsers have no WebGPU for such a page, however new they are.
