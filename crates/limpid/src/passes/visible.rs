@@ -4,8 +4,9 @@ use super::module;
 use crate::gpu::{Grid, GrowBuffer, Kernel, Recorder, Slot, storage_buffer};
 use crate::targets::Targets;
 
-/// `visible.wgsl`'s `LEVELS`.
+/// `visible.wgsl`'s `LEVELS` and `PER_LANE`.
 const LEVELS: u64 = 7;
+const PER_LANE: u64 = 8;
 
 #[derive(Clone)]
 pub(crate) struct Visible {
@@ -80,18 +81,19 @@ impl Visible {
             self.groups.as_entire_binding(),
         ];
         let each = Grid::Items(count, 64);
+        let several = Grid::Items(count, 64 * PER_LANE);
         recorder.encoder.clear_buffer(items, 0, Some(4));
         match stage {
             Stage::Fronts => {
                 recorder.clear(fronts);
                 recorder.run("visible", &self.find_fronts, &resources, &each);
-                recorder.run("visible", &self.list_fronts, &resources, &each);
+                recorder.run("visible", &self.list_fronts, &resources, &several);
             }
             Stage::Rest => {
                 recorder.run("visible", &self.cover_tiles, &resources, &Grid::Items(tiles, 64));
                 let wide_tiles = targets.widest_covered_tile_count();
                 recorder.run("visible", &self.cover_wide_tiles, &resources, &Grid::Items(wide_tiles, 64));
-                recorder.run("visible", &self.list_rest, &resources, &each);
+                recorder.run("visible", &self.list_rest, &resources, &several);
             }
         }
         recorder.run("visible", &self.count_list, &resources, &Grid::Items(1, 1));

@@ -17,6 +17,7 @@ struct List {
 }
 
 const LEVELS: u32 = 7u; // of `fronts`, each of tiles twice as wide
+const PER_LANE: u32 = 8u; // particles that a lane takes in the kernels that list them
 const FRONT: f32 = 8.0; // r behind the nearest centre that the first stage draws: seen aslant, a tile's surface is at many depths
 
 struct Center {
@@ -63,18 +64,31 @@ fn is_in_front(particle: vec4f) -> bool {
     return center.seen && center.depth <= nearest + FRONT * particle.w;
 }
 
+// Lists particles from `first` on, one for each bit of `chosen`, by one addition for all of a lane: those of all lanes queue up.
+fn add_to_list(first: u32, chosen: u32) {
+    if chosen == 0u {
+        return;
+    }
+    var place = atomicAdd(&list.count, countOneBits(chosen));
+    for (var left = chosen; left != 0u; left &= left - 1u) {
+        list.items[place] = first + firstTrailingBit(left);
+        place++;
+    }
+}
+
 @compute @workgroup_size(64)
 fn list_fronts(
     @builtin(workgroup_id) group: vec3u,
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = item_index(group, groups, lane, 64u);
-    if index < arrayLength(&particles) {
-        if is_in_front(particles[index]) {
-            list.items[atomicAdd(&list.count, 1u)] = index;
-        }
+    let first = PER_LANE * item_index(group, groups, lane, 64u);
+    let end = min(first + PER_LANE, arrayLength(&particles));
+    var chosen = 0u;
+    for (var index = first; index < end; index++) {
+        chosen |= u32(is_in_front(particles[index])) << (index - first);
     }
+    add_to_list(first, chosen);
 }
 
 @compute @workgroup_size(64)
@@ -158,15 +172,15 @@ fn list_rest(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = item_index(group, groups, lane, 64u);
-    if index < arrayLength(&particles) {
+    let first = PER_LANE * item_index(group, groups, lane, 64u);
+    let end = min(first + PER_LANE, arrayLength(&particles));
+    var chosen = 0u;
+    for (var index = first; index < end; index++) {
         let particle = particles[index];
-        if particle.w > 0.0 && !is_in_front(particle) {
-            if shape_can_show(particle) {
-                list.items[atomicAdd(&list.count, 1u)] = index;
-            }
-        }
+        let is_left = particle.w > 0.0 && !is_in_front(particle);
+        chosen |= u32(is_left && shape_can_show(particle)) << (index - first);
     }
+    add_to_list(first, chosen);
 }
 
 @compute @workgroup_size(1)
