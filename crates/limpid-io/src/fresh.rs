@@ -69,19 +69,22 @@ impl<'a, T: Copy> Unwritten<'a, T> {
         self.first_written(count)
     }
 
-    /// The same for numbers that lie in memory one after the other.
-    pub fn write(self, numbers: &[T]) -> &'a [T] {
-        let count = numbers.len().min(self.numbers.len());
-        self.numbers[..count].write_copy_of_slice(&numbers[..count]);
+    /// Writes zeros for a stream to write over: what is small enough to be near goes to memory once even so.
+    pub fn write_zeros(self) -> &'a mut [T]
+    where
+        T: Pod,
+    {
+        let count = self.numbers.len();
+        self.numbers.fill(MaybeUninit::new(T::zeroed()));
         self.first_written(count)
     }
 
     /// Counts the numbers that have just been written, and gives up the place.
-    fn first_written(self, count: usize) -> &'a [T] {
-        let numbers = &self.numbers[..count];
+    fn first_written(self, count: usize) -> &'a mut [T] {
+        let numbers = &mut self.numbers[..count];
         self.written.fetch_add(count, Ordering::Relaxed);
         // SAFETY: the callers above have written that many, from the first on.
-        unsafe { numbers.assume_init_ref() }
+        unsafe { numbers.assume_init_mut() }
     }
 }
 
@@ -121,7 +124,7 @@ mod tests {
         let mut fresh = Fresh::new(10);
         let mut rest = fresh.unwritten();
         let first = rest.take(6);
-        assert_eq!(rest.write(&[6, 7, 8, 9]), [6, 7, 8, 9]);
+        rest.write_zeros().copy_from_slice(&[6, 7, 8, 9]);
         let mut parts = first.chunks(3);
         parts.next().unwrap().write_rows([[0, 1, 2]].into_iter());
         parts.next().unwrap().write_rows((3..6).map(|x| [x]));
@@ -130,7 +133,7 @@ mod tests {
         // Large enough for large pages.
         let numbers: Vec<u64> = (0..3 << 20).collect();
         let mut fresh = Fresh::new(numbers.len());
-        fresh.unwritten().write(&numbers);
+        fresh.unwritten().write_rows(numbers.iter().map(|x| [*x]));
         assert_eq!(fresh.into_vec(), numbers);
     }
 
@@ -141,7 +144,7 @@ mod tests {
         // Fewer rows than go in, and more than go in.
         let mut rest = fresh.unwritten();
         rest.take(4).write_rows([[0.0; 3]; 2].into_iter());
-        rest.write(&[1.0; 9]);
+        rest.write_rows([[1.0]; 9].into_iter());
         fresh.into_vec();
     }
 }

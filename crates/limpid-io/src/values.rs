@@ -246,8 +246,8 @@ impl Input<'_> {
         Ok(Positions::from_triples(Values::F32(numbers)).checked(are_finite.into_inner()))
     }
 
-    /// Numbers whose type is that of the file, but for the order of their bytes: each piece is handed to `finish` while it is near, and
-    /// then goes to where it stays.
+    /// Numbers whose type is that of the file, but for the order of their bytes: read to where they stay, and each piece handed to
+    /// `finish` while it is near.
     fn array<T: Pod + Send>(&mut self, count: u64, finish: impl Fn(&mut [T]) + Sync) -> Result<Vec<T>, Fault> {
         let known = self.claim(count, size_of::<T>())?;
         let per_piece = PIECE / size_of::<T>();
@@ -261,13 +261,7 @@ impl Input<'_> {
             let shares = array.unwritten().chunks(SHARE / size_of::<T>());
             let shares = shares.map(|share| ((share.len() * size_of::<T>()) as u64, share)).collect();
             self.parts(shares, |from, share: Unwritten<T>| {
-                let mut block = vec![T::zeroed(); share.len().min(per_piece)];
-                share.chunks(per_piece).try_for_each(|part| {
-                    let piece = &mut block[..part.len()];
-                    read(from, piece)?;
-                    part.write(piece);
-                    Ok(())
-                })
+                share.chunks(per_piece).try_for_each(|piece| read(from, piece.write_zeros()))
             })?;
             return Ok(array.into_vec());
         }
