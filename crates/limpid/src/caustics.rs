@@ -124,7 +124,7 @@ impl Caustics {
         let profiler = recorder.profiler.take();
         let spheres = &Settings::spheres();
         passes.surface.clear(recorder, queue, particles, spheres, targets);
-        passes.surface.encode(recorder, particles, spheres, targets);
+        passes.surface.encode(recorder, particles, spheres, view.px_per_world(), targets);
         passes.tiles.encode(recorder, targets);
         let smoothed = passes.smooth.encode(recorder, &SMOOTHING, targets);
         passes.normals.encode(recorder, smoothed, &passes.nothing.depth, targets);

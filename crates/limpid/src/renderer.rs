@@ -123,6 +123,8 @@ struct Begun {
     paint_layout: Option<PaintLayout>,
     liquids: LiquidsUniform,
     conditions: Conditions,
+    /// `ViewUniform`'s.
+    px_per_world: f32,
 }
 
 /// What `composite` and the readers of buffers need of the last prepared frame.
@@ -460,7 +462,8 @@ impl Renderer {
             self.thickness.clear(recorder, scene_depth.as_ref(), &targets.thickness);
         }
         let conditions = Conditions::new(&view, &uniform, &targets);
-        Ok(Begun { targets, frame_group, scene_depth, paint_layout, liquids, conditions })
+        let px_per_world = view.px_per_world();
+        Ok(Begun { targets, frame_group, scene_depth, paint_layout, liquids, conditions, px_per_world })
     }
 
     /// Adds particles to the images.
@@ -472,9 +475,9 @@ impl Renderer {
         particles: &Particles,
         begun: &Begun,
     ) {
-        let Begun { targets, frame_group, .. } = begun;
+        let Begun { targets, frame_group, px_per_world, .. } = begun;
         let recorder = &mut self.watch.recorder(device, encoder, frame_group);
-        let balls = self.surface.encode(recorder, particles, settings, targets);
+        let balls = self.surface.encode(recorder, particles, settings, *px_per_world, targets);
         if settings.fixed_thickness.is_none() {
             self.thickness.splat(recorder, balls, &targets.thickness);
         }

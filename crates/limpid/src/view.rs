@@ -144,3 +144,11 @@ pub(crate) struct ViewUniform {
     /// 0 in perspective.
     pub far: f32,
 }
+
+impl ViewUniform {
+    /// Pixels that a world length covers where the local origin is: about where the particles are.
+    pub fn px_per_world(&self) -> f32 {
+        let depth = if self.far == 0.0 { (-self.view_from_local.w_axis.z).max(self.near) } else { 1.0 };
+        -1.0 / (self.px_step[1] * depth)
+    }
+}

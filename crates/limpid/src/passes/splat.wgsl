@@ -1,7 +1,7 @@
 // Depth splat: the nearest entry of every pixel's ray into any ball, by a checked atomicMax on the bits of its nearness.
 // Small splats take one lane each; large ones are listed and get a workgroup each, block by block of the picture.
 
-@group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the balls to draw: visible.wgsl's
+@group(1) @binding(3) var<storage, read> list: array<u32>; // count, then the balls to draw: visible.wgsl's; or unused
 @group(1) @binding(4) var<storage, read_write> nearness: array<atomic<u32>>;
 @group(1) @binding(5) var<storage, read_write> large: LargeSplats;
 @group(1) @binding(6) var<storage, read_write> covered: array<atomic<u32>>; // covered.wgsl
@@ -12,6 +12,9 @@ struct LargeSplats {
     cut_blocks: atomic<u32>, // blocks that the near plane fills with fluid: nothing can be nearer there
     indices: array<u32>,
 }
+
+// Whether some balls are listed; all are drawn else.
+override LISTED: bool = true;
 
 // Pixels in the bounding box above which a splat is large.
 const LARGE_PX: i32 = 1024;
@@ -46,10 +49,13 @@ fn splat_small(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let item = item_index(group, groups, lane, 64u);
-    if item >= list[0] {
+    if item >= select(arrayLength(&particles), list[0], LISTED) {
         return;
     }
-    let index = list[1u + item];
+    var index = item;
+    if LISTED {
+        index = list[1u + item];
+    }
     let ball = ball_of(index);
     if !is_drawn(ball) {
         return;

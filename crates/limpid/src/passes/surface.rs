@@ -15,6 +15,9 @@ const REACH: f32 = 2.0;
 /// Particles of a larger radius than this many medians look for neighbours no farther, or cells would get crowded.
 const MOST_MEDIANS: f32 = 2.0;
 
+/// Spheres of a smaller drawn radius than this many pixels are drawn sooner than it is known which of them are hidden.
+const LEAST_RADIUS_PX: f32 = 1.25;
+
 #[derive(Clone)]
 pub(crate) struct Surface {
     ellipsoids: Ellipsoids,
@@ -59,52 +62,53 @@ impl Surface {
     }
 
     /// Adds particles to the nearest fluid of every pixel in `targets.raw`, and returns what they were drawn as: those that
-    /// cannot show as spheres. Neighbours are looked for within a chunk.
+    /// cannot show as spheres. Neighbours are looked for within a chunk. `px_per_world`: `ViewUniform`'s.
     pub fn encode<'a>(
         &'a mut self,
         recorder: &mut Recorder<'_>,
         particles: &'a Particles,
         settings: &Settings,
+        px_per_world: f32,
         targets: &Targets,
     ) -> &'a [Chunk] {
-        let stages = if settings.skip_hidden { &[Stage::Fronts, Stage::Rest][..] } else { &[Stage::Fronts] };
-        match settings.anisotropy.enabled {
-            true => self.ellipsoids(recorder, &particles.chunks, stages, targets),
-            false => self.spheres(recorder, &particles.chunks, stages, targets),
+        if settings.anisotropy.enabled {
+            return self.ellipsoids(recorder, &particles.chunks, settings.skip_hidden, targets);
         }
+        let radius_px = settings.splat_scale * particles.reference_radius * px_per_world;
+        self.spheres(recorder, &particles.chunks, settings.skip_hidden && radius_px >= LEAST_RADIUS_PX, targets);
+        &particles.chunks
     }
 
-    fn spheres<'a>(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        chunks: &'a [Chunk],
-        stages: &[Stage],
-        targets: &Targets,
-    ) -> &'a [Chunk] {
+    fn spheres(&mut self, recorder: &mut Recorder<'_>, chunks: &[Chunk], skip_hidden: bool, targets: &Targets) {
+        let Self { visible, splat, grid, .. } = self;
         for chunk in chunks {
-            for stage in stages {
-                let list = self.visible.encode(recorder, &self.grid, (chunk.positions(), chunk.count), targets, *stage);
-                self.splat.encode(recorder, chunk, &list, targets);
+            if !skip_hidden {
+                splat.encode(recorder, chunk, None, targets);
+                continue;
+            }
+            for stage in [Stage::Fronts, Stage::Rest] {
+                let list = visible.encode(recorder, grid, (chunk.positions(), chunk.count), targets, stage);
+                splat.encode(recorder, chunk, Some(&list), targets);
             }
         }
-        chunks
     }
 
     fn ellipsoids(
         &mut self,
         recorder: &mut Recorder<'_>,
         chunks: &[Chunk],
-        stages: &[Stage],
+        skip_hidden: bool,
         targets: &Targets,
     ) -> &[Chunk] {
         let Self { ellipsoids, visible, splat, grid } = self;
+        let stages = if skip_hidden { &[Stage::Fronts, Stage::Rest][..] } else { &[Stage::Fronts] };
         ellipsoids.forget();
         for chunk in chunks {
             let (sorted, balls) = ellipsoids.sort(recorder, grid, chunk);
             for stage in stages {
                 let list = visible.encode(recorder, grid, (sorted.particles(), sorted.count), targets, *stage);
                 ellipsoids.shape(recorder, grid, &sorted, &list, &balls);
-                splat.encode(recorder, &balls, &list, targets);
+                splat.encode(recorder, &balls, Some(&list), targets);
             }
         }
         ellipsoids.chunks()
